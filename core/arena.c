@@ -212,6 +212,12 @@ void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t 
     return entry->block;
 }
 
+void *gm_arena_grown(struct gm_arena *arena, void *array, size_t count, size_t size)
+{
+    const bool is_full = (count & (count - 1)) == 0;
+    return is_full ? gm_arena_resize(arena, array, count > 0 ? 2 * count : 1, size) : array;
+}
+
 char *gm_arena_print(struct gm_arena *arena, const char *format, ...)
 {
     va_list arguments;

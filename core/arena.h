@@ -32,6 +32,8 @@ const char *gm_arena_reason(const struct gm_arena *arena);
 void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size);
 /* A block that was taken (or NULL), with another size; what is new is not set. */
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size);
+/* An array of the arena (or NULL) with room for one more than its `count` elements: it doubles when it is full. */
+void *gm_arena_grown(struct gm_arena *arena, void *array, size_t count, size_t size);
 /* A formatted text; leaves the body if it cannot be encoded, or when out of memory. */
 __attribute__((format(printf, 2, 3))) char *gm_arena_print(struct gm_arena *arena, const char *format, ...);
 /* Closes the thing with the arena; at once, if the memory to note it is refused. A thing that is NULL was

@@ -126,17 +126,13 @@ static const struct gm_scheme *find_brought(const char *name, const struct gm_pr
 static const struct gm_scheme *find_row(const char *name, int (*compare)(const char *a, const char *b),
                                         const struct gm_problem *problem)
 {
-    for (size_t i = 0; i < KINDS; i++) {
-        for (const struct gm_family *const *family = kinds[i]->families; *family; family++) {
-            for (size_t k = 0; k < (*family)->count; k++) {
-                const struct gm_scheme *scheme = &(*family)->schemes[k];
-                if (compare(scheme->name, name) == 0 && (!problem || gm_scheme_fits(scheme, problem))) {
-                    return scheme;
-                }
-            }
-        }
+    const struct gm_scheme *scheme;
+    size_t i = 0;
+    while ((scheme = gm_scheme_at(i)) &&
+           (compare(scheme->name, name) != 0 || (problem && !gm_scheme_fits(scheme, problem)))) {
+        i++;
     }
-    return NULL;
+    return scheme;
 }
 
 const struct gm_scheme *gm_scheme_find(const char *name)

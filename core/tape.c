@@ -45,7 +45,7 @@ struct group {
     size_t begin, end;
 };
 
-/* The state of a tape's compilation, inside a body of its arena. */
+/* The state of a tape's compilation, inside a body of the tape's arena. */
 struct writing {
     struct gm_arena *arena;
     struct gm_tape *tape;
@@ -61,11 +61,10 @@ struct writing {
     uint32_t zero;     /* the constant 0 of long code, followed by -0 */
     struct value *values;
     struct term *terms;
-    uint32_t *products;   /* hash table of the numbers of products in powers; 0: a free place */
-    size_t product_count; /* entries in products; its capacity is a power of two, above twice as many */
-    size_t product_capacity;
-    struct group *groups; /* groups in the order of the code */
-    size_t number_count;  /* number of values as found: numbers are below it */
+    uint32_t *products;      /* hash table of the numbers of products in powers; 0: a free place */
+    size_t product_capacity; /* a power of two, above twice as many */
+    struct group *groups;    /* groups in the order of the code */
+    size_t number_count;     /* number of values as found: numbers are below it */
     size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
     size_t least_rolled; /* values; shorter code keeps the formula's order */
     bool rolled;
@@ -76,32 +75,6 @@ struct writing {
     size_t stretch_count, free_count[2];
 };
 static const uint32_t NONE = UINT32_MAX;
-
-enum { FIRST_CAPACITY = 64 };
-
-/* True if an array of `count` elements is full; it begins with FIRST_CAPACITY and doubles. */
-static bool is_full(size_t count)
-{
-    return count == 0 || (count >= FIRST_CAPACITY && (count & (count - 1)) == 0);
-}
-
-/* An array of the tape with room for one more. */
-static void *grown(const struct writing *writing, void *array, size_t size, size_t count)
-{
-    if (is_full(count)) {
-        array = realloc(array, (count > 0 ? 2 * count : FIRST_CAPACITY) * size);
-        gm_arena_need(writing->arena, array != NULL);
-    }
-    return array;
-}
-
-/* An array of the compilation with room for one more. */
-static void *widened(const struct writing *writing, void *array, size_t size, size_t count)
-{
-    return is_full(count)
-               ? gm_arena_resize(writing->arena, array, count > 0 ? 2 * count : FIRST_CAPACITY, size)
-               : array;
-}
 
 /* ---- from nodes to values ---- */
 
@@ -137,7 +110,8 @@ static void fold(struct writing *writing)
 static uint32_t constant(struct writing *writing, double value)
 {
     struct gm_tape *tape = writing->tape;
-    tape->constants = grown(writing, tape->constants, sizeof *tape->constants, tape->constant_count);
+    tape->constants =
+        gm_arena_grown(writing->arena, tape->constants, tape->constant_count, sizeof *tape->constants);
     tape->constants[tape->constant_count++] = value;
     return (uint32_t)(tape->inputs + tape->constant_count - 1);
 }
@@ -151,19 +125,28 @@ static void need(struct writing *writing, gm_node_id i)
 
 static void find_constants(struct writing *writing)
 {
+    enum { MOST_PRODUCTS = 8 }; /* of a power */
     bool inverts = false;
+    size_t powers = 0;
     for (size_t k = 0; k < writing->part_count; k++) {
         const struct gm_node *node = &writing->graph->nodes[writing->parts[k]];
         if (writing->dependent[writing->parts[k]] && node->operation > GM_VARIABLE) {
             need(writing, node->a);
             need(writing, second_operand(node));
-            inverts |=
-                node->operation == GM_OPERATION_WHOLE_POWER && writing->graph->nodes[node->b].value <= 0;
+            if (node->operation == GM_OPERATION_WHOLE_POWER) {
+                powers++;
+                inverts |= writing->graph->nodes[node->b].value <= 0;
+            }
         }
     }
     for (size_t k = 0; k < writing->tape->outputs; k++) {
         need(writing, writing->nodes[k]);
     }
+    writing->product_capacity = 1;
+    while (writing->product_capacity < 2 * MOST_PRODUCTS * powers) {
+        writing->product_capacity *= 2;
+    }
+    writing->products = gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
     writing->one = inverts ? constant(writing, 1) : NONE;
     writing->zero = NONE;
     if (writing->part_count >= writing->least_rolled) {
@@ -176,7 +159,8 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
 {
     const size_t first = writing->tape->inputs + writing->tape->constant_count;
     const uint32_t number = (uint32_t)(first + writing->value_count);
-    writing->values = widened(writing, writing->values, sizeof *writing->values, writing->value_count);
+    writing->values =
+        gm_arena_grown(writing->arena, writing->values, writing->value_count, sizeof *writing->values);
     writing->values[writing->value_count++] =
         (struct value){.operation = operation, .number = number, .a = a, .b = b};
     return number;
@@ -198,24 +182,9 @@ static uint32_t *product_place(const struct writing *writing, uint32_t a, uint32
 /* A product within a power: powers of one number share theirs. */
 static uint32_t product_of(struct writing *writing, uint32_t a, uint32_t b)
 {
-    if (2 * (writing->product_count + 1) > writing->product_capacity) {
-        const size_t capacity = writing->product_capacity;
-        const uint32_t *before = writing->products;
-        writing->product_capacity = capacity > 0 ? 2 * capacity : 64;
-        writing->products =
-            gm_arena_take(writing->arena, writing->product_capacity, sizeof *writing->products);
-        for (size_t i = 0; i < capacity; i++) {
-            if (before[i] > 0) {
-                const struct value *value =
-                    &writing->values[before[i] - writing->tape->inputs - writing->tape->constant_count];
-                *product_place(writing, value->a, value->b) = before[i];
-            }
-        }
-    }
     uint32_t *place = product_place(writing, a, b);
     if (*place == 0) {
         *place = compute_value(writing, GM_OPERATION_MULTIPLY, a, b);
-        writing->product_count++;
     }
     return *place;
 }
@@ -269,57 +238,48 @@ static bool is_sum(const struct value *value)
     return value->operation == GM_OPERATION_ADD || value->operation == GM_OPERATION_SUBTRACT;
 }
 
-static void add_term(struct writing *writing, uint32_t number, bool subtracted)
+/* The sum that only leads to the one at `at`; without such a sum `at` itself. */
+static size_t sum_below(const struct value *straight, size_t at, uint32_t fixed, const uint32_t *used)
 {
-    writing->terms = widened(writing, writing->terms, sizeof *writing->terms, writing->term_count);
-    writing->terms[writing->term_count++] = (struct term){number, subtracted};
-}
-
-static void turn_terms(struct term *terms, size_t count)
-{
-    for (size_t i = 0; i < count / 2; i++) {
-        const struct term other = terms[i];
-        terms[i] = terms[count - 1 - i];
-        terms[count - 1 - i] = other;
+    const uint32_t operands[] = {straight[at].a, straight[at].b};
+    for (int k = 0; k < (straight[at].operation == GM_OPERATION_ADD ? 2 : 1); k++) {
+        if (operands[k] >= fixed && used[operands[k]] == 1 && is_sum(&straight[operands[k] - fixed])) {
+            return operands[k] - fixed;
+        }
     }
+    return at;
 }
 
 /* Merges sums that only lead to this one into one value, if they are many: its terms, in the order of the
    formula. used: number of uses of each number. Merged values have no level. */
 static void gather_sum(struct writing *writing, struct value *straight, size_t last, const uint32_t *used)
 {
-    const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
-                   first = (uint32_t)writing->term_count;
-    size_t at = last, length = 1;
-    for (;;) {
-        const struct value *value = &straight[at];
-        const bool left = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed]),
-                   right = !left && value->operation == GM_OPERATION_ADD && value->b >= fixed &&
-                           used[value->b] == 1 && is_sum(&straight[value->b - fixed]);
-        add_term(writing, right ? value->a : value->b, value->operation == GM_OPERATION_SUBTRACT);
-        if (!left && !right) {
-            add_term(writing, value->a, false);
-            break;
-        }
-        at = (left ? value->a : value->b) - fixed;
+    const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count);
+    uint32_t length = 1;
+    size_t at, next;
+    for (at = last; (next = sum_below(straight, at, fixed, used)) != at; at = next) {
         length++;
     }
     if (length < LEAST_SUM) {
-        writing->term_count = first;
         return;
     }
-    turn_terms(writing->terms + first, length + 1);
-    for (size_t k = last; k != at;) {
-        const struct value *value = &straight[k];
-        const uint32_t next = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed])
-                                  ? value->a
-                                  : value->b;
-        k = next - fixed;
-        straight[k].level = NONE;
+    for (uint32_t k = 0; k <= length; k++) {
+        writing->terms =
+            gm_arena_grown(writing->arena, writing->terms, writing->term_count + k, sizeof *writing->terms);
     }
+    struct term *term = writing->terms + writing->term_count + length; /* the last one is met first */
+    for (at = last; (next = sum_below(straight, at, fixed, used)) != at; at = next) {
+        const struct value *value = &straight[at];
+        *term-- = (struct term){value->a == next + fixed ? value->b : value->a,
+                                value->operation == GM_OPERATION_SUBTRACT};
+        straight[next].level = NONE;
+    }
+    term[0] = (struct term){straight[at].b, straight[at].operation == GM_OPERATION_SUBTRACT};
+    term[-1] = (struct term){straight[at].a, false};
     straight[last].operation = GM_SUMMED;
-    straight[last].first_term = first;
-    straight[last].terms = (uint32_t)length + 1;
+    straight[last].first_term = (uint32_t)writing->term_count;
+    straight[last].terms = length + 1;
+    writing->term_count += length + 1;
 }
 
 static void find_sums(struct writing *writing, struct value *straight, uint32_t *used)
@@ -606,7 +566,7 @@ static void release(struct writing *writing, uint32_t number, uint32_t group)
 static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32_t a, uint32_t b)
 {
     struct gm_tape *tape = writing->tape;
-    tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length);
+    tape->code = gm_arena_grown(writing->arena, tape->code, tape->length, sizeof *tape->code);
     const struct gm_instruction *before =
         tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
     const bool near = before && before->operation < GM_REPEATED;
@@ -623,7 +583,7 @@ static uint32_t register_of(const struct writing *writing, const struct value *v
 static void put_in_list(struct writing *writing, uint32_t entry)
 {
     struct gm_tape *tape = writing->tape;
-    tape->lists = grown(writing, tape->lists, sizeof *tape->lists, writing->list_count);
+    tape->lists = gm_arena_grown(writing->arena, tape->lists, writing->list_count, sizeof *tape->lists);
     tape->lists[writing->list_count++] = entry;
 }
 
@@ -647,7 +607,8 @@ static struct gm_operands operands_of(struct writing *writing, const struct valu
 static void put_repeated(struct writing *writing, const struct gm_repeated *batch)
 {
     struct gm_tape *tape = writing->tape;
-    tape->batches = grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count);
+    tape->batches =
+        gm_arena_grown(writing->arena, tape->batches, writing->batch_count, sizeof *tape->batches);
     /* registers 0: they are read before anybody looks at the operation */
     put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
     tape->batches[writing->batch_count++] = *batch;
@@ -728,7 +689,7 @@ static void put_sums(struct writing *writing, const struct value *values, size_t
             done[takes ? k : 0] += takes;
         }
     }
-    tape->sums = grown(writing, tape->sums, sizeof *tape->sums, writing->sums_count);
+    tape->sums = gm_arena_grown(writing->arena, tape->sums, writing->sums_count, sizeof *tape->sums);
     put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
     tape->sums[writing->sums_count++] = sums;
 }
@@ -825,6 +786,12 @@ static void compile(struct gm_arena *arena, void *data)
 {
     struct writing *writing = data;
     struct gm_tape *tape = writing->tape;
+    tape->code = gm_arena_take(arena, 1, sizeof *tape->code);
+    tape->batches = gm_arena_take(arena, 1, sizeof *tape->batches);
+    tape->sums = gm_arena_take(arena, 1, sizeof *tape->sums);
+    tape->lists = gm_arena_take(arena, 1, sizeof *tape->lists);
+    tape->constants = gm_arena_take(arena, 1, sizeof *tape->constants);
+    const size_t mark = gm_arena_mark(arena); /* what follows is scratch */
     writing->parts = gm_arena_keep(
         arena, gm_formula_parts_of(writing->graph, writing->nodes, tape->outputs, &writing->part_count),
         free);
@@ -851,17 +818,17 @@ static void compile(struct gm_arena *arena, void *data)
     writing->stretches = gm_arena_take(arena, all, sizeof *writing->stretches);
     write_code(writing);
     tape->rolled = writing->rolled;
+    gm_arena_release(arena, mark);
 }
 
 /* Opens code, in rows if it has writing.least_rolled values or more, most of which share a group. */
 static bool open_code(struct gm_tape *tape, struct writing writing, size_t outputs, size_t inputs)
 {
-    *tape = (struct gm_tape){.inputs = inputs, .outputs = outputs, .first_used = inputs};
+    *tape = (struct gm_tape){
+        .inputs = inputs, .outputs = outputs, .first_used = inputs, .arena = gm_arena_open()};
     writing.tape = tape;
-    writing.arena = gm_arena_open();
-    const bool good = gm_arena_run(writing.arena, compile, &writing);
-    gm_arena_close(writing.arena);
-    return good;
+    writing.arena = tape->arena;
+    return gm_arena_run(tape->arena, compile, &writing);
 }
 
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
@@ -872,11 +839,10 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     bool good = open_code(tape, writing, count, inputs);
     if (good && !tape->rolled && tape->length >= LEAST_ROWS) {
         writing.least_rolled = LEAST_ROWS;
-        tape->rows = calloc(1, sizeof *tape->rows);
+        tape->rows = gm_arena_take(tape->arena, 1, sizeof *tape->rows);
         good = tape->rows && open_code(tape->rows, writing, count, inputs);
         if (good && !tape->rows->rolled) {
             gm_tape_close(tape->rows);
-            free(tape->rows);
             tape->rows = NULL;
         }
     }
@@ -885,15 +851,10 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
 
 void gm_tape_close(struct gm_tape *tape)
 {
-    free(tape->code);
-    free(tape->batches);
-    free(tape->sums);
-    free(tape->lists);
-    free(tape->constants);
     if (tape->rows) {
         gm_tape_close(tape->rows);
-        free(tape->rows);
     }
+    gm_arena_close(tape->arena);
     *tape = (struct gm_tape){0};
 }
 
@@ -908,12 +869,29 @@ void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened)
     gm_arena_need(arena, opened);
 }
 
-void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived)
+struct gm_sparse gm_sparse_jacobian(struct gm_arena *arena, struct gm_formula *graph, const gm_node_id *nodes,
+                                    size_t rows, const bool *marked, size_t variables)
 {
-    if (jacobian->entries) {
-        gm_arena_keep(arena, jacobian->entries, free);
+    size_t capacity = 64;
+    struct gm_sparse jacobian = {.entries = gm_arena_take(arena, capacity, sizeof *jacobian.entries)};
+    const size_t mark = gm_arena_mark(arena);
+    gm_node_id *gradient = gm_arena_take(arena, variables, sizeof *gradient);
+    for (size_t row = 0; row < rows; row++) {
+        gm_arena_need(arena, gm_gradient(graph, nodes[row], marked, variables, gradient));
+        for (size_t column = 0; column < variables; column++) {
+            if (gm_is_constant(graph, gradient[column], 0)) {
+                continue;
+            }
+            if (jacobian.count == capacity) {
+                capacity *= 2;
+                jacobian.entries =
+                    gm_arena_resize(arena, jacobian.entries, capacity, sizeof *jacobian.entries);
+            }
+            jacobian.entries[jacobian.count++] = (struct gm_sparse_entry){row, column, gradient[column]};
+        }
     }
-    gm_arena_need(arena, derived);
+    gm_arena_release(arena, mark);
+    return jacobian;
 }
 
 gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,

@@ -47,6 +47,7 @@ struct gm_tape {
     struct gm_sums *sums;
     uint32_t *lists;
     double *constants;
+    struct gm_arena *arena; /* that owns these */
     size_t inputs, constant_count, outputs, registers;
     size_t first_used, last_used; /* the inputs that occur are among [first, last) */
     bool rolled;                  /* it has batches and sums */
@@ -67,8 +68,10 @@ void gm_tape_close(struct gm_tape *tape);
 /* Leaves the body of an arena if the tape was not opened, else lets the arena close it. */
 void gm_tape_keep(struct gm_arena *arena, struct gm_tape *tape, bool opened);
 
-/* Leaves the body of an arena if a matrix was not derived, else lets the arena hold its entries. */
-void gm_sparse_keep(struct gm_arena *arena, struct gm_sparse *jacobian, bool derived);
+/* The Jacobian matrix d nodes[row] / d variable; of the components of a gradient, the Hessian. Inside a body of the
+   arena, which holds the entries. */
+struct gm_sparse gm_sparse_jacobian(struct gm_arena *arena, struct gm_formula *graph, const gm_node_id *nodes,
+                                    size_t rows, const bool *marked, size_t variables);
 /* Returns `count` nodes, followed by those of a matrix. */
 gm_node_id *gm_sparse_nodes(struct gm_arena *arena, const gm_node_id *before, size_t count,
                             const struct gm_sparse *jacobian);

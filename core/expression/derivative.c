@@ -148,33 +148,3 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
     free(adjoint);
     return !graph->failed;
 }
-
-bool gm_sparse_jacobian(struct gm_formula *graph, const gm_node_id *nodes, size_t rows, const bool *marked,
-                        size_t variables, struct gm_sparse *jacobian)
-{
-    gm_node_id *gradient = malloc((variables + 1) * sizeof *gradient);
-    size_t capacity = 0;
-    *jacobian = (struct gm_sparse){0};
-    bool good = gradient != NULL;
-    for (size_t row = 0; good && row < rows; row++) {
-        good = gm_gradient(graph, nodes[row], marked, variables, gradient);
-        for (size_t column = 0; good && column < variables; column++) {
-            if (gm_is_constant(graph, gradient[column], 0)) {
-                continue;
-            }
-            if (jacobian->count == capacity) {
-                capacity = capacity ? 2 * capacity : 64;
-                struct gm_sparse_entry *more = realloc(jacobian->entries, capacity * sizeof *more);
-                if (!more) {
-                    good = false;
-                    break;
-                }
-                jacobian->entries = more;
-            }
-            jacobian->entries[jacobian->count++] = (struct gm_sparse_entry){row, column, gradient[column]};
-        }
-    }
-    free(gradient);
-    graph->failed |= !good;
-    return good;
-}

@@ -26,9 +26,4 @@ struct gm_sparse {
     } * entries;
     size_t count;
 };
-/* The Jacobian matrix d nodes[row] / d variable; of the components of a gradient, the Hessian. The caller
-   frees `entries` in any case. */
-bool gm_sparse_jacobian(struct gm_formula *graph, const gm_node_id *nodes, size_t rows, const bool *marked,
-                        size_t variables, struct gm_sparse *jacobian);
-
 #endif

@@ -37,30 +37,25 @@ double gm_operation_value(enum gm_operation operation, double a, double b)
     return NAN;
 }
 
-bool gm_rational_residue(enum gm_operation operation, gm_residue a, gm_residue b, double exponent,
-                         gm_residue *value)
+gm_residue gm_rational_residue(enum gm_operation operation, gm_residue a, gm_residue b, double exponent,
+                               bool *exists)
 {
     const bool reciprocal = operation == GM_OPERATION_WHOLE_POWER && exponent < 0;
+    *exists &= operation == GM_OPERATION_DIVIDE ? b != 0 : !reciprocal || a != 0;
     switch (operation) {
     case GM_OPERATION_ADD:
-        *value = gm_residue_plus(a, b);
-        break;
+        return gm_residue_plus(a, b);
     case GM_OPERATION_SUBTRACT:
-        *value = gm_residue_plus(a, gm_residue_minus(b));
-        break;
+        return gm_residue_plus(a, gm_residue_minus(b));
     case GM_OPERATION_MULTIPLY:
-        *value = gm_residue_times(a, b);
-        break;
+        return gm_residue_times(a, b);
     case GM_OPERATION_DIVIDE:
-        *value = gm_residue_times(a, gm_residue_inverse(b));
-        return b != 0;
+        return gm_residue_times(a, gm_residue_inverse(b));
     case GM_OPERATION_NEGATE:
-        *value = gm_residue_minus(a);
-        break;
+        return gm_residue_minus(a);
     default:
-        *value = gm_residue_power(reciprocal ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
+        return gm_residue_power(reciprocal ? gm_residue_inverse(a) : a, (uint64_t)fabs(exponent));
     }
-    return !reciprocal || a != 0;
 }
 
 void gm_formula_open(struct gm_formula *graph)
@@ -245,8 +240,9 @@ static gm_node_id folded(struct gm_formula *graph, enum gm_operation operation, 
     }
     gm_residue of_x, of_y, natural;
     const bool known_x = gm_formula_residue(graph, a, &of_x), known_y = gm_formula_residue(graph, b, &of_y);
-    struct gm_exact_value exact = {.known = known_x && known_y};
-    const bool exists = gm_rational_residue(operation, of_x, of_y, y, &exact.residue);
+    bool exists = true;
+    const struct gm_exact_value exact = {.residue = gm_rational_residue(operation, of_x, of_y, y, &exists),
+                                         .known = known_x && known_y};
     return !exists || (gm_residue_of(value, &natural) == exact.known && natural == exact.residue)
                ? gm_formula_constant(graph, value)
                : exact_constant(graph, value, exact);
@@ -260,6 +256,21 @@ gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number)
 static bool is_operation(const struct gm_formula *graph, gm_node_id node, enum gm_operation operation)
 {
     return graph->nodes[node].operation == operation;
+}
+
+static bool is_number(const struct gm_formula *graph, gm_node_id node)
+{
+    return is_operation(graph, node, GM_CONSTANT);
+}
+
+static gm_node_id first_of(const struct gm_formula *graph, gm_node_id node)
+{
+    return graph->nodes[node].a;
+}
+
+static gm_node_id second_of(const struct gm_formula *graph, gm_node_id node)
+{
+    return graph->nodes[node].b;
 }
 
 static gm_node_id times(struct gm_formula *graph, gm_node_id a, gm_node_id b)
@@ -277,219 +288,86 @@ static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
     return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
 }
 
-/* node = coefficient * rest; false, and GM_NO_NODE for 1, if no coefficient is written */
-static bool scaled(const struct gm_formula *graph, gm_node_id node, gm_node_id *coefficient, gm_node_id *rest)
+/* node = coefficient * rest */
+static bool is_scaled(const struct gm_formula *graph, gm_node_id node)
 {
-    const struct gm_node *product = &graph->nodes[node];
-    const bool is_scaled =
-        product->operation == GM_OPERATION_MULTIPLY && is_operation(graph, product->a, GM_CONSTANT);
-    *coefficient = is_scaled ? product->a : GM_NO_NODE;
-    *rest = is_scaled ? product->b : node;
-    return is_scaled;
+    return is_operation(graph, node, GM_OPERATION_MULTIPLY) && is_number(graph, first_of(graph, node));
 }
 
-static gm_node_id or_one(struct gm_formula *graph, gm_node_id coefficient)
+/* The coefficient that is written, or 1. */
+static gm_node_id coefficient_of(struct gm_formula *graph, gm_node_id node)
 {
-    return coefficient == GM_NO_NODE ? gm_formula_constant(graph, 1) : coefficient;
+    return is_scaled(graph, node) ? first_of(graph, node) : gm_formula_constant(graph, 1);
 }
 
-static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+static gm_node_id rest_of(const struct gm_formula *graph, gm_node_id node)
 {
-    gm_node_id of_a, of_b, rest_a, rest_b;
-    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 0)) {
-        *simple = gm_is_constant(graph, a, 0) ? b : a;
-    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, a, graph->nodes[b].a);
-    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b, graph->nodes[a].a);
-    } else if (scaled(graph, a, &of_a, &rest_a), scaled(graph, b, &of_b, &rest_b), rest_a == rest_b) {
-        const gm_node_id both = folded(graph, GM_OPERATION_ADD, or_one(graph, of_a), or_one(graph, of_b));
-        *simple = times(graph, both, rest_a);
-    } else {
-        return false;
-    }
-    return true;
+    return is_scaled(graph, node) ? second_of(graph, node) : node;
 }
 
-static bool simple_difference(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+static gm_node_id joined_coefficients(struct gm_formula *graph, gm_node_id a, gm_node_id b)
 {
-    if (a == b) {
-        *simple = gm_formula_constant(graph, 0);
-    } else if (gm_is_constant(graph, b, 0)) {
-        *simple = a;
-    } else if (gm_is_constant(graph, a, 0)) {
-        *simple = negative(graph, b);
-    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_ADD, a, graph->nodes[b].a);
-    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_ADD, graph->nodes[a].a, b));
-    } else {
-        return false;
-    }
-    return true;
+    return folded(graph, GM_OPERATION_ADD, coefficient_of(graph, a), coefficient_of(graph, b));
 }
 
 /* node = c / denominator, c a constant */
 static bool is_reciprocal(const struct gm_formula *graph, gm_node_id node)
 {
-    return is_operation(graph, node, GM_OPERATION_DIVIDE) &&
-           is_operation(graph, graph->nodes[node].a, GM_CONSTANT);
+    return is_operation(graph, node, GM_OPERATION_DIVIDE) && is_number(graph, first_of(graph, node));
+}
+
+static bool begins_with_reciprocal(const struct gm_formula *graph, gm_node_id node)
+{
+    return is_operation(graph, node, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, first_of(graph, node));
 }
 
 /* (c / y) * factor as (c factor) / y, where the constants are gathered above */
 static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, gm_node_id factor)
 {
-    const struct gm_node node = graph->nodes[quotient];
-    return over(graph, folded(graph, GM_OPERATION_MULTIPLY, node.a, factor), node.b);
+    const gm_node_id above = folded(graph, GM_OPERATION_MULTIPLY, first_of(graph, quotient), factor);
+    return over(graph, above, second_of(graph, quotient));
 }
 
-/* A reciprocal times another node: the reciprocal stays a factor, which other products share, and takes up
-   constants. */
-static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotient, gm_node_id other,
-                                    gm_node_id *simple)
+static gm_node_id joined_reciprocals(struct gm_formula *graph, gm_node_id a, gm_node_id b)
 {
-    gm_node_id coefficient, rest;
-    if (is_reciprocal(graph, other)) {
-        const gm_node_id below = times(graph, graph->nodes[quotient].b, graph->nodes[other].b);
-        const gm_node_id above =
-            folded(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].a, graph->nodes[other].a);
-        *simple = over(graph, above, below);
-    } else if (scaled(graph, other, &coefficient, &rest)) {
-        *simple = times(graph, times_above(graph, quotient, coefficient), rest);
-    } else {
-        return false;
-    }
-    return true;
+    const gm_node_id below = times(graph, second_of(graph, a), second_of(graph, b));
+    return over(graph, folded(graph, GM_OPERATION_MULTIPLY, first_of(graph, a), first_of(graph, b)), below);
 }
 
-static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+/* The value of a constant, or of the coefficient that is written, or 1. */
+static double scale_of(const struct gm_formula *graph, gm_node_id node)
 {
-    gm_node_id coefficient, rest;
-    if (a == b && is_operation(graph, a, GM_OPERATION_SQRT)) {
-        *simple = graph->nodes[a].a;
-    } else if (a == b && !is_operation(graph, a, GM_CONSTANT)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_WHOLE_POWER, a, gm_formula_constant(graph, 2));
-    } else if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
-        *simple = times(graph, b, a);
-    } else if (gm_is_constant(graph, a, 0)) {
-        *simple = a;
-    } else if (gm_is_constant(graph, a, 1)) {
-        *simple = b;
-    } else if (gm_is_constant(graph, a, -1)) {
-        *simple = negative(graph, b);
-    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, times(graph, graph->nodes[a].a, b));
-    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, times(graph, a, graph->nodes[b].a));
-    } else if (is_reciprocal(graph, a)) {
-        return product_with_reciprocal(graph, a, b, simple);
-    } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
-        *simple = times_above(graph, b, a);
-    } else if (is_operation(graph, a, GM_CONSTANT) && is_operation(graph, b, GM_OPERATION_MULTIPLY) &&
-               is_reciprocal(graph, graph->nodes[b].a)) {
-        const gm_node_id other = graph->nodes[b].b;
-        *simple = times(graph, times_above(graph, graph->nodes[b].a, a), other);
-    } else if (is_reciprocal(graph, b)) {
-        *simple = times(graph, b, a);
-    } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = times(graph, folded(graph, GM_OPERATION_MULTIPLY, a, coefficient), rest);
-    } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
-        *simple = times(graph, coefficient, times(graph, a, rest));
-    } else if (scaled(graph, a, &coefficient, &rest)) {
-        *simple = times(graph, coefficient, times(graph, rest, b));
-    } else {
-        return false;
-    }
-    return true;
+    const gm_node_id scale = is_scaled(graph, node) ? first_of(graph, node) : node;
+    return is_number(graph, scale) ? graph->nodes[scale].value : 1;
 }
 
-/* node = coefficient * rest; false if the node is a constant, without a rest */
-static bool divided(const struct gm_formula *graph, gm_node_id node, gm_node_id *coefficient,
-                    gm_node_id *rest)
+/* (c x) / (d y) as (c / d) (x / y) if c / d is exact, else as c (x / y); GM_NO_NODE: there is no c. */
+static gm_node_id divided_coefficients(struct gm_formula *graph, gm_node_id a, gm_node_id b)
 {
-    scaled(graph, node, coefficient, rest);
-    const bool constant = is_operation(graph, node, GM_CONSTANT);
-    *coefficient = constant ? node : *coefficient;
-    return !constant;
+    const bool above = !is_number(graph, a), below = !is_number(graph, b);
+    const double value_a = scale_of(graph, a), value_b = scale_of(graph, b), ratio = value_a / value_b;
+    if (value_b != 1 && isnormal(ratio) && fma(ratio, value_b, -value_a) == 0) {
+        const gm_node_id quotient = folded(graph, GM_OPERATION_DIVIDE, above ? coefficient_of(graph, a) : a,
+                                           below ? coefficient_of(graph, b) : b),
+                         top = above ? rest_of(graph, a) : quotient,
+                         rest = below ? over(graph, top, rest_of(graph, b)) : top;
+        return above ? times(graph, quotient, rest) : rest;
+    }
+    return above && value_a != 1 ? times(graph, first_of(graph, a), over(graph, rest_of(graph, a), b))
+                                 : GM_NO_NODE;
 }
 
-static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+/* The simpler node for an operation; GM_NO_NODE without one. */
+static gm_node_id simpler(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
-    gm_node_id of_a, of_b, rest_a, rest_b;
-    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 1)) {
-        *simple = a;
-        return true;
+    const struct gm_node x = graph->nodes[a], y = graph->nodes[b];
+#define GM_RULE(operation_, condition, node)                                                                 \
+    if (operation == GM_OPERATION_##operation_ && (condition)) {                                             \
+        return node;                                                                                         \
     }
-    if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
-        *simple = negative(graph, over(graph, graph->nodes[a].a, b));
-        return true;
-    }
-    if (is_operation(graph, a, GM_OPERATION_DIVIDE)) {
-        const gm_node_id below = times(graph, graph->nodes[a].b, b);
-        *simple = over(graph, graph->nodes[a].a, below);
-        return true;
-    }
-    const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
-    const double value_a = of_a == GM_NO_NODE ? 1 : graph->nodes[of_a].value,
-                 value_b = of_b == GM_NO_NODE ? 1 : graph->nodes[of_b].value, ratio = value_a / value_b;
-    const bool exact = isnormal(ratio) && fma(ratio, value_b, -value_a) == 0;
-    if (exact && value_b != 1) {
-        const gm_node_id quotient = folded(graph, GM_OPERATION_DIVIDE, or_one(graph, of_a), of_b);
-        const gm_node_id top = above ? rest_a : quotient;
-        const gm_node_id rest = below ? over(graph, top, rest_b) : top;
-        *simple = above ? times(graph, quotient, rest) : rest;
-        return true;
-    }
-    if (above && value_a != 1) {
-        *simple = times(graph, of_a, over(graph, rest_a, b));
-        return true;
-    }
-    return false;
-}
-
-static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b,
-                     gm_node_id *simple)
-{
-    switch (operation) {
-    case GM_OPERATION_ADD:
-        return simple_sum(graph, a, b, simple);
-    case GM_OPERATION_SUBTRACT:
-        return simple_difference(graph, a, b, simple);
-    case GM_OPERATION_MULTIPLY:
-        return simple_product(graph, a, b, simple);
-    case GM_OPERATION_DIVIDE:
-        return simple_quotient(graph, a, b, simple);
-    case GM_OPERATION_NEGATE:
-        *simple = graph->nodes[a].a;
-        if (is_operation(graph, a, GM_OPERATION_SUBTRACT)) {
-            *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, graph->nodes[a].b, graph->nodes[a].a);
-            return true;
-        }
-        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) &&
-            is_operation(graph, graph->nodes[a].a, GM_OPERATION_NEGATE)) {
-            *simple = times(graph, graph->nodes[graph->nodes[a].a].a, graph->nodes[a].b);
-            return true;
-        }
-        if (is_reciprocal(graph, a)) {
-            *simple = times_above(graph, a, gm_formula_constant(graph, -1));
-            return true;
-        }
-        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, graph->nodes[a].a)) {
-            const gm_node_id other = graph->nodes[a].b;
-            *simple =
-                times(graph, times_above(graph, graph->nodes[a].a, gm_formula_constant(graph, -1)), other);
-            return true;
-        }
-        return is_operation(graph, a, GM_OPERATION_NEGATE);
-    case GM_OPERATION_WHOLE_POWER:
-        *simple = gm_is_constant(graph, b, 0) ? gm_formula_constant(graph, 1) : a;
-        return gm_is_constant(graph, b, 0) || gm_is_constant(graph, b, 1);
-    case GM_OPERATION_CHOSEN:
-        *simple = gm_is_constant(graph, a, 1) ? b : gm_formula_constant(graph, 0);
-        return is_operation(graph, a, GM_CONSTANT) || gm_is_constant(graph, b, 0);
-    default:
-        return false;
-    }
+#include "core/expression/simplifications.def"
+#undef GM_RULE
+    return GM_NO_NODE;
 }
 
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
@@ -508,8 +386,8 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
         (single || is_operation(graph, b, GM_CONSTANT))) {
         return folded(graph, operation, a, single ? a : b);
     }
-    gm_node_id simple;
-    if (graph->simplifies && simplify(graph, operation, a, b, &simple)) {
+    const gm_node_id simple = graph->simplifies ? simpler(graph, operation, a, b) : GM_NO_NODE;
+    if (simple != GM_NO_NODE) {
         return simple;
     }
     return intern(graph, (struct gm_node){.operation = operation, .a = a, .b = b});
@@ -517,9 +395,10 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
 
 gm_node_id gm_simplified(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
+    const bool before = graph->simplifies;
     graph->simplifies = true;
     const gm_node_id node = gm_formula_apply(graph, operation, a, b);
-    graph->simplifies = false;
+    graph->simplifies = before;
     return node;
 }
 
@@ -647,10 +526,15 @@ static bool is_marked(struct gm_formula *graph, gm_node_id part, const void *dat
     return node->operation == GM_VARIABLE && node->a < set->variables && set->marked[node->a];
 }
 
+gm_node_id gm_formula_first_marked(struct gm_formula *graph, gm_node_id node, const bool *marked,
+                                   size_t variables)
+{
+    return gm_formula_first(graph, node, is_marked, &(struct marked_variables){marked, variables});
+}
+
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
 {
-    return gm_formula_first(graph, node, is_marked, &(struct marked_variables){marked, variables}) !=
-           GM_NO_NODE;
+    return gm_formula_first_marked(graph, node, marked, variables) != GM_NO_NODE;
 }
 
 static bool is_kink(struct gm_formula *graph, gm_node_id part, const void *data)
@@ -672,35 +556,28 @@ gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, si
 bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
                            const gm_node_id *replacement, size_t variables)
 {
-    const gm_node_id before = graph->count;
-    gm_node_id *others = malloc((before + (size_t)1) * sizeof *others);
-    for (gm_node_id i = 0; others && i < before; i++) {
-        others[i] = GM_NO_NODE;
-    }
-    for (size_t k = 0; others && k < count && !graph->failed; k++) {
-        size_t size = 0;
-        gm_node_id *parts = gm_formula_parts(graph, nodes[k], &size);
-        graph->failed |= !parts;
-        for (size_t p = 0; p < size && !graph->failed; p++) {
-            const gm_node_id i = parts[p];
-            const struct gm_node node = graph->nodes[i];
-            if (others[i] != GM_NO_NODE) {
-                continue;
-            }
-            others[i] = i;
-            if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
-                others[i] = replacement[node.a];
-            } else if (node.operation > GM_VARIABLE) {
-                const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
-                graph->origin = gm_formula_origin(graph, i);
-                others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
-                graph->origin = GM_NO_PLACE;
-            }
+    size_t size = 0;
+    gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
+    gm_node_id *others =
+        malloc((graph->count + (size_t)1) * sizeof *others); /* [node], set for parts alone */
+    graph->failed |= !parts || !others;
+    for (size_t p = 0; p < size && !graph->failed; p++) {
+        const gm_node_id i = parts[p];
+        const struct gm_node node = graph->nodes[i];
+        others[i] = i;
+        if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
+            others[i] = replacement[node.a];
+        } else if (node.operation > GM_VARIABLE) {
+            const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
+            graph->origin = gm_formula_origin(graph, i);
+            others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
+            graph->origin = GM_NO_PLACE;
         }
-        nodes[k] = parts ? others[nodes[k]] : nodes[k];
-        free(parts);
     }
-    graph->failed |= !others;
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        nodes[k] = others[nodes[k]];
+    }
+    free(parts);
     free(others);
     return !graph->failed;
 }

@@ -36,9 +36,9 @@ static inline bool gm_is_rational(enum gm_operation operation)
     return (operation > GM_VARIABLE && operation <= GM_OPERATION_NEGATE) ||
            operation == GM_OPERATION_WHOLE_POWER;
 }
-/* The value of such an operation on residues. `exponent` is the value of b. False: a division by 0. */
-bool gm_rational_residue(enum gm_operation operation, uint64_t a, uint64_t b, double exponent,
-                         uint64_t *value);
+/* The value of such an operation on residues. `exponent` is the value of b. A division by 0 sets *exists to false. */
+uint64_t gm_rational_residue(enum gm_operation operation, uint64_t a, uint64_t b, double exponent,
+                             bool *exists);
 
 /* A node's number. Operands have smaller numbers, so that a pass upwards evaluates, and one downwards gathers
    derivatives, without recursion. */
@@ -88,13 +88,7 @@ gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
 /* The residue of what a constant stands for, as gm_residue_of. */
 bool gm_formula_residue(const struct gm_formula *graph, gm_node_id constant, uint64_t *residue);
 /* b of an operation of one operand is ignored. A power whose exponent is a constant whole number up to 16
-   becomes a chain. While `simplifies` is set also, for finite x and y:
-     0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0
-     -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
-     x x -> x^2    sqrt(x) sqrt(x) -> x    (x / y) / z -> x / (y z)
-     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, and above:
-     (c / x) (d y) -> ((c d) / x) y, d ((c / x) y) -> ((c d) / x) y, (c / x) (d / y) -> (c d) / (x y),
-     (c x) / (d y) -> (c / d) (x / y) if c / d is exact, else c (x / y) */
+   becomes a chain. While `simplifies` is set also core/expression/simplifications.def holds, for finite values. */
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
                             gm_node_id b);
 /* gm_formula_apply with `simplifies` set, for derived formulas. */
@@ -134,8 +128,11 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
 gm_node_id gm_formula_first(struct gm_formula *graph, gm_node_id node,
                             bool (*suits)(struct gm_formula *graph, gm_node_id part, const void *data),
                             const void *data);
-/* True if a node depends on a marked variable; `marked` has `variables` entries. Out of memory sets
+/* The first marked variable of a node, or GM_NO_NODE; `marked` has `variables` entries. Out of memory sets
    graph->failed. */
+gm_node_id gm_formula_first_marked(struct gm_formula *graph, gm_node_id node, const bool *marked,
+                                   size_t variables);
+/* True if it has one. */
 bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 /* The first operation of a formula that is not smooth and depends on a marked variable, or GM_NO_NODE. Out of
    memory sets graph->failed. */

@@ -7,7 +7,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
     PROOFS = 3,
@@ -70,80 +69,61 @@ static bool is_below(uint64_t seed, gm_residue a, gm_residue b)
     return a != b && (a < b) == (unrelated(seed, GM_OPERATION_BELOW, a < b ? a : b, a < b ? b : a) & 1);
 }
 
-/* a^exponent, for halves of whole numbers, with the root of a; other exponents have no relations. Returns false if it
-   does not exist. */
-static bool find_power(uint64_t seed, gm_residue a, gm_residue b, double exponent, gm_residue *value)
+/* a^exponent, for halves of whole numbers, with the root of a; other exponents have no relations. */
+static gm_residue power_of(uint64_t seed, gm_residue a, gm_residue b, double exponent, bool *exists)
 {
     enum { LARGEST = 1 << 20 };
     const double halves = fabs(2 * exponent);
     if (!(halves <= LARGEST && halves == floor(halves))) {
-        *value = unrelated(seed, GM_OPERATION_POWER, a, b);
-        return true;
+        return unrelated(seed, GM_OPERATION_POWER, a, b);
     }
     const bool is_root = fmod(halves, 2) != 0;
     const gm_residue base = is_root ? gm_residue_power(a, (GM_PRIME + 1) / 4) : a;
-    *value = gm_residue_power(exponent < 0 ? gm_residue_inverse(base) : base,
-                              (uint64_t)(is_root ? halves : halves / 2));
-    return (exponent >= 0 || a != 0) && (!is_root || gm_residue_times(base, base) == a);
+    *exists &= (exponent >= 0 || a != 0) && (!is_root || gm_residue_times(base, base) == a);
+    return gm_residue_power(exponent < 0 ? gm_residue_inverse(base) : base,
+                            (uint64_t)(is_root ? halves : halves / 2));
 }
 
-/* The value of a node; false if it has none at this point. */
-static bool value_of(const struct gm_node *node, gm_residue a, gm_residue b, double exponent, uint64_t seed,
-                     gm_residue *value)
+/* The value of a node; *exists becomes false if it has none at this point. */
+static gm_residue value_of(const struct gm_node *node, gm_residue a, gm_residue b, double exponent,
+                           uint64_t seed, bool *exists)
 {
     gm_residue scale;
-    bool exists = true;
     if (gm_is_rational(node->operation)) {
-        return gm_rational_residue(node->operation, a, b, exponent, value);
+        return gm_rational_residue(node->operation, a, b, exponent, exists);
     }
     switch (node->operation) {
     case GM_OPERATION_POWER:
-        exists = find_power(seed, a, b, exponent, value);
-        break;
+        return power_of(seed, a, b, exponent, exists);
     case GM_OPERATION_SQRT:
-        exists = find_power(seed, a, b, 0.5, value);
-        break;
+        return power_of(seed, a, b, 0.5, exists);
     case GM_OPERATION_EXP:
-        *value = exponential(seed, a);
-        break;
+        return exponential(seed, a);
     case GM_OPERATION_SINH:
-        *value = hyperbolic(exponential(seed, a), true);
-        break;
     case GM_OPERATION_COSH:
-        *value = hyperbolic(exponential(seed, a), false);
-        break;
+        return hyperbolic(exponential(seed, a), node->operation == GM_OPERATION_SINH);
     case GM_OPERATION_TANH:
-        *value = gm_residue_times(hyperbolic(exponential(seed, a), true),
-                                  gm_residue_inverse(hyperbolic(exponential(seed, a), false)));
-        break;
+        return gm_residue_times(hyperbolic(exponential(seed, a), true),
+                                gm_residue_inverse(hyperbolic(exponential(seed, a), false)));
     case GM_OPERATION_SIN:
-        *value = on_circle(seed, a, true, &scale);
-        *value = gm_residue_times(*value, gm_residue_inverse(scale));
-        break;
-    case GM_OPERATION_COS:
-        *value = on_circle(seed, a, false, &scale);
-        *value = gm_residue_times(*value, gm_residue_inverse(scale));
-        break;
-    case GM_OPERATION_TAN:
-        *value = gm_residue_times(on_circle(seed, a, true, &scale),
-                                  gm_residue_inverse(on_circle(seed, a, false, &scale)));
-        break;
-    case GM_OPERATION_ABS:
-        *value = is_square(a) ? a : gm_residue_minus(a);
-        break;
-    case GM_OPERATION_MIN:
-        *value = is_below(seed, a, b) ? a : b;
-        break;
-    case GM_OPERATION_MAX:
-        *value = is_below(seed, b, a) ? a : b;
-        break;
-    case GM_OPERATION_BELOW:
-        *value = is_below(seed, a, b);
-        break;
-    default:
-        *value = unrelated(seed, node->operation, a, b);
+    case GM_OPERATION_COS: {
+        const gm_residue point = on_circle(seed, a, node->operation == GM_OPERATION_SIN, &scale);
+        return gm_residue_times(point, gm_residue_inverse(scale));
     }
-    return exists;
+    case GM_OPERATION_TAN:
+        return gm_residue_times(on_circle(seed, a, true, &scale),
+                                gm_residue_inverse(on_circle(seed, a, false, &scale)));
+    case GM_OPERATION_ABS:
+        return is_square(a) ? a : gm_residue_minus(a);
+    case GM_OPERATION_MIN:
+        return is_below(seed, a, b) ? a : b;
+    case GM_OPERATION_MAX:
+        return is_below(seed, b, a) ? a : b;
+    case GM_OPERATION_BELOW:
+        return is_below(seed, a, b);
+    default:
+        return unrelated(seed, node->operation, a, b);
+    }
 }
 
 static bool is_fixed(const struct gm_random_values *random, const struct gm_node *variable)
@@ -162,22 +142,18 @@ static bool take_point(struct gm_random_values *random)
         const struct gm_node *node = &random->graph->nodes[i];
         if (node->operation == GM_CONSTANT) {
             exists = isfinite(node->value);
-            if (exists) {
-                gm_formula_residue(random->graph, i, &values[i]);
-            }
+            gm_formula_residue(random->graph, i, &values[i]);
         } else if (node->operation == GM_VARIABLE) {
             values[i] = unrelated(seed, GM_VARIABLE, node->a, 0);
             if (is_fixed(random, node)) {
                 exists = isfinite(random->fixed[node->a]);
-            }
-            if (is_fixed(random, node) && exists) {
                 gm_residue_of(random->fixed[node->a], &values[i]);
             }
         } else {
             const gm_node_id b = gm_second_operand(node);
             const struct gm_node *of_b = &random->graph->nodes[b];
-            exists = value_of(node, values[node->a], values[b],
-                              of_b->operation == GM_CONSTANT ? of_b->value : NAN, seed, &values[i]);
+            values[i] = value_of(node, values[node->a], values[b],
+                                 of_b->operation == GM_CONSTANT ? of_b->value : NAN, seed, &exists);
         }
     }
     return exists;
@@ -267,8 +243,7 @@ static struct sized size_there(const struct gm_random_values *random, uint64_t s
             const uint64_t drawn = gm_mixed(seed ^ gm_mixed(node->a));
             value = ((double)(drawn >> 12) * 0x1p-52 * 1.8 + .2) * (drawn & 1 && seed % 2 ? -1 : 1);
             value *= seed % 4 == 3 ? 10 : 1; /* beyond a bound that a formula may have */
-            const bool given = node->a < random->variables && !isnan(random->fixed[node->a]);
-            value = given ? random->fixed[node->a] : value;
+            value = is_fixed(random, node) ? random->fixed[node->a] : value;
         }
         values[i] = node->operation > GM_VARIABLE ? size_of(node->operation, values[node->a], values[node->b])
                                                   : (struct sized){value, fabs(value)};

@@ -14,4 +14,13 @@ bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *field
    derivatives are 0. Works in a copy of the graph; out of memory sets graph->failed. */
 bool gm_is_affine(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 
+/* The largest skew matrix that is inverted. */
+enum { GM_MOST_ROWS_OF_SKEW = 64 };
+
+/* Writes the Pfaffian of a skew matrix of formulas, n * n by rows with an even n, and its inverse. Returns false if the
+   matrix has too many entries: more than about 10 rows that all depend on each other; or when out of memory
+   (graph->failed). */
+bool gm_skew_inverse(struct gm_formula *graph, const gm_node_id *matrix, size_t n, gm_node_id *inverse,
+                     gm_node_id *pfaffian);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,7 +54,7 @@ struct reader {
     unsigned varying;  /* bit k: a bound uses index k, so the rounds of its loop differ */
     unsigned hidden;   /* bit k: index k is of a text around this one */
     struct call *call; /* the function whose body is read; NULL: none */
-    bool failed;
+    jmp_buf leave;     /* out of the reading: it has a fault, or is out of memory */
     struct gm_fault *fault;
 };
 
@@ -73,18 +74,33 @@ bool gm_fail(struct gm_fault *fault, size_t offset, const char *format, ...)
     return false;
 }
 
-__attribute__((format(printf, 3, 4))) static gm_node_id fail(struct reader *reader, size_t offset,
-                                                             const char *format, ...)
+_Noreturn __attribute__((format(printf, 3, 4))) static void fail(struct reader *reader, size_t offset,
+                                                                 const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    if (!reader->failed) {
+    tell(reader->fault, offset, format, arguments);
+    va_end(arguments);
+    longjmp(reader->leave, 1);
+}
+
+__attribute__((format(printf, 4, 5))) static void fail_if(struct reader *reader, bool wrong, size_t offset,
+                                                          const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
         tell(reader->fault, offset, format, arguments);
+        longjmp(reader->leave, 1);
     }
     va_end(arguments);
-    reader->failed = true;
-    reader->at = reader->end;
-    return 0;
+}
+
+static void need_graph(struct reader *reader)
+{
+    if (reader->graph->failed) {
+        longjmp(reader->leave, 1);
+    }
 }
 
 bool gm_is_letter(char character)
@@ -143,10 +159,10 @@ static bool is_range(const struct reader *reader, size_t at)
 }
 
 /* Fails: `what` was expected at this place. */
-static gm_node_id expected(struct reader *reader, const char *what)
+_Noreturn static void expected(struct reader *reader, const char *what)
 {
     if (peek(reader) == '\0') {
-        return fail(reader, reader->at, "the formula ends where %s was expected", what);
+        fail(reader, reader->at, "the formula ends where %s was expected", what);
     }
     const char *here = reader->text + reader->at;
     size_t length = 1;
@@ -154,20 +170,19 @@ static gm_node_id expected(struct reader *reader, const char *what)
         length++;
     }
     if (gm_text_valid(here, length) < length) {
-        return fail(reader, reader->at, "the byte 0x%02x is not text; %s was expected", (unsigned char)*here,
-                    what);
+        fail(reader, reader->at, "the byte 0x%02x is not text; %s was expected", (unsigned char)*here, what);
     }
     if ((unsigned char)*here < ' ') {
-        return fail(reader, reader->at, "the character 0x%02x has no meaning; %s was expected",
-                    (unsigned char)*here, what);
+        fail(reader, reader->at, "the character 0x%02x has no meaning; %s was expected", (unsigned char)*here,
+             what);
     }
-    return fail(reader, reader->at, "%s was expected, not \"%.*s\"", what, (int)length, here);
+    fail(reader, reader->at, "%s was expected, not \"%.*s\"", what, (int)length, here);
 }
 
-/* Takes a sign that has to be there, unless the reading has failed before. */
+/* Takes a sign that has to be there. */
 static void need_sign(struct reader *reader, char sign, const char *what)
 {
-    if (!reader->failed && !take(reader, sign)) {
+    if (!take(reader, sign)) {
         expected(reader, what);
     }
 }
@@ -209,8 +224,8 @@ bool gm_is_random(const char *word)
     return i < sizeof words / sizeof *words;
 }
 
-static gm_node_id unknown(struct reader *reader, size_t offset, const char *text, size_t length,
-                          const char *what)
+_Noreturn static void unknown(struct reader *reader, size_t offset, const char *text, size_t length,
+                              const char *what)
 {
     size_t count = 0;
     while (candidate(count, reader)) {
@@ -218,18 +233,16 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
     }
     char word[64];
     snprintf(word, sizeof word, "%.*s", gm_brief_length(length), text);
-    if (gm_is_random(word)) {
-        return fail(reader, offset, "%s", GM_NO_NOISE);
-    }
+    fail_if(reader, gm_is_random(word), offset, "%s", GM_NO_NOISE);
     const char *near = other_name(word);
     near = near ? near : gm_nearest(word, count, candidate, reader);
-    return fail(reader, offset, "there is no %s %s%s%.60s", what, word, near ? "; did you mean " : "",
-                near ? near : "");
+    fail(reader, offset, "there is no %s %s%s%.60s", what, word, near ? "; did you mean " : "",
+         near ? near : "");
 }
 
 static bool is_word(const char *word, const char *text, size_t length)
 {
-    return strlen(word) == length && memcmp(word, text, length) == 0;
+    return gm_text_same(word, strlen(word), text, length);
 }
 
 static enum gm_operation function_of(const char *text, size_t length)
@@ -268,7 +281,7 @@ static gm_node_id read_number(struct reader *reader)
         }
     }
     if (at == begin + 1 && text[begin] == '.') {
-        return expected(reader, "a number, a name or (");
+        expected(reader, "a number, a name or (");
     }
     if (at < reader->end && (text[at] == 'e' || text[at] == 'E')) {
         size_t digit = at + 1;
@@ -281,28 +294,23 @@ static gm_node_id read_number(struct reader *reader)
         }
     }
     char brief[64], *copy = at - begin < sizeof brief ? brief : malloc(at - begin + 1);
-    if (!copy) {
-        reader->graph->failed = true;
-        return 0;
-    }
+    reader->graph->failed |= !copy;
+    need_graph(reader);
     memcpy(copy, text + begin, at - begin);
     copy[at - begin] = '\0';
     const double value = strtod(copy, NULL);
     if (copy != brief) {
         free(copy);
     }
-    if (isinf(value)) {
-        return fail(reader, begin, "%.*s is beyond the largest number, %.2g",
-                    (int)(at - begin < 30 ? at - begin : 30), text + begin, DBL_MAX);
-    }
+    fail_if(reader, isinf(value), begin, "%.*s is beyond the largest number, %.2g",
+            (int)(at - begin < 30 ? at - begin : 30), text + begin, DBL_MAX);
     reader->at = at;
     const char next = at < reader->end ? text[at] : '\0';
     if (gm_is_letter(next)) {
-        return fail(
-            reader, at,
-            "there is no operator between a number and a name; a product is written with *: %.*s*%.*s",
-            (int)(at - begin < 30 ? at - begin : 30), text + begin,
-            (int)gm_name_length(text + at, reader->end - at < 30 ? reader->end - at : 30), text + at);
+        fail(reader, at,
+             "there is no operator between a number and a name; a product is written with *: %.*s*%.*s",
+             (int)(at - begin < 30 ? at - begin : 30), text + begin,
+             (int)gm_name_length(text + at, reader->end - at < 30 ? reader->end - at : 30), text + at);
     }
     const struct gm_scope *scope = &reader->scope;
     return scope->decimal ? scope->decimal(scope->data, text + begin, at - begin, value)
@@ -317,23 +325,13 @@ static long read_whole(struct reader *reader, const char *what)
     reader->fixed++;
     const gm_node_id node = read_expression(reader, 0);
     reader->fixed--;
-    if (reader->failed || reader->graph->failed) {
-        return 0;
-    }
+    need_graph(reader);
     const double value = reader->graph->nodes[node].value;
-    if (reader->graph->nodes[node].operation != GM_CONSTANT) {
-        fail(reader, begin, "%s holds whole numbers, indices of loops and parameters alone", what);
-        return 0;
-    }
-    if (value != floor(value)) {
-        fail(reader, begin, "%s has to be a whole number, not %g", what, value);
-        return 0;
-    }
-    if (fabs(value) > GM_LARGEST_INDEX) {
-        fail(reader, begin, "%s lies between -%d and %d, and this is %g", what, GM_LARGEST_INDEX,
-             GM_LARGEST_INDEX, value);
-        return 0;
-    }
+    fail_if(reader, reader->graph->nodes[node].operation != GM_CONSTANT, begin,
+            "%s holds whole numbers, indices of loops and parameters alone", what);
+    fail_if(reader, value != floor(value), begin, "%s has to be a whole number, not %g", what, value);
+    fail_if(reader, fabs(value) > GM_LARGEST_INDEX, begin, "%s lies between -%d and %d, and this is %g", what,
+            GM_LARGEST_INDEX, GM_LARGEST_INDEX, value);
     return (long)value;
 }
 
@@ -353,8 +351,7 @@ static const struct gm_index *index_of(const struct reader *reader, const char *
 {
     for (size_t i = reader->scope.index_count; i-- > 0;) {
         const struct gm_index *index = &reader->scope.indices[i];
-        if (!(reader->hidden & 1U << i) && index->length == length &&
-            memcmp(index->text, text, length) == 0) {
+        if (!(reader->hidden & 1U << i) && gm_text_same(index->text, index->length, text, length)) {
             return index;
         }
     }
@@ -378,7 +375,7 @@ static size_t argument_of(const struct reader *reader, const char *text, size_t 
     const struct gm_definition *definition = reader->call ? reader->call->definition : NULL;
     for (size_t i = 0; definition && i < definition->count; i++) {
         const struct gm_span name = definition->arguments[i];
-        if (name.end - name.begin == length && memcmp(reader->text + name.begin, text, length) == 0) {
+        if (gm_text_same(reader->text + name.begin, name.end - name.begin, text, length)) {
             return i;
         }
     }
@@ -392,13 +389,12 @@ struct loop {
     size_t begin;
 };
 
-static bool has_room_for(struct reader *reader, size_t place, int64_t operands)
+static void need_room_for(struct reader *reader, size_t place, int64_t operands)
 {
-    if (operands <= (int64_t)MOST_OPERANDS * OF_AN_INDEX) {
-        return true;
+    if (operands > (int64_t)MOST_OPERANDS * OF_AN_INDEX) {
+        fail(reader, place, "the formula, with its loops written out, has more than %d operands",
+             MOST_OPERANDS);
     }
-    fail(reader, place, "the formula, with its loops written out, has more than %d operands", MOST_OPERANDS);
-    return false;
 }
 
 static long read_bound(struct reader *reader)
@@ -425,36 +421,36 @@ static void read_loop(struct reader *reader, struct loop *loop)
     const struct gm_name name = {.text = reader->text + begin, .length = length};
     gm_node_id node;
     char sentence[GM_FAULT_SENTENCE];
-    if (scope->index_count == GM_MOST_INDICES) {
-        fail(reader, begin, "more than %d loops in each other", GM_MOST_INDICES);
-    } else if (gm_formula_reserves(name.text, length) || index_of(reader, name.text, length) ||
-               argument_of(reader, name.text, length) < GM_MOST_ARGUMENTS ||
-               (scope->find && scope->find(scope->data, &name, &node, sentence) != GM_UNKNOWN)) {
-        fail(reader, begin, "%.*s has a meaning already and cannot be the index of a loop",
-             gm_brief_length(length), name.text);
-    }
-    reader->at = reader->failed ? reader->end : begin + length;
+    fail_if(reader, scope->index_count == GM_MOST_INDICES, begin, "more than %d loops in each other",
+            GM_MOST_INDICES);
+    fail_if(reader,
+            gm_formula_reserves(name.text, length) || index_of(reader, name.text, length) ||
+                argument_of(reader, name.text, length) < GM_MOST_ARGUMENTS ||
+                (scope->find && scope->find(scope->data, &name, &node, sentence) != GM_UNKNOWN),
+            begin, "%.*s has a meaning already and cannot be the index of a loop", gm_brief_length(length),
+            name.text);
+    reader->at = begin + length;
     take(reader, '=');
     const long low = read_bound(reader);
     peek(reader);
-    if (!reader->failed && !is_range(reader, reader->at)) {
+    if (!is_range(reader, reader->at)) {
         expected(reader, "..");
     }
-    reader->at += reader->failed ? 0 : 2;
+    reader->at += 2;
     const long high = read_bound(reader);
     need_sign(reader, ',', "a comma");
     const size_t body = reader->at;
     const int64_t before = reader->operands;
     const unsigned own = 1U << scope->index_count;
     reader->varying &= ~own;
-    for (long value = low; value <= high && !reader->failed && !reader->graph->failed; value++) {
+    for (long value = low; value <= high; value++) {
         scope->indices[scope->index_count++] = (struct gm_index){name.text, length, value};
         reader->at = body;
         read_loop(reader, loop);
         scope->index_count--;
         if (value == low && !(reader->varying & own)) { /* all rounds have the length of the first */
-            has_room_for(reader, begin,
-                         reader->operands + ((int64_t)high - low) * (reader->operands - before));
+            need_room_for(reader, begin,
+                          reader->operands + ((int64_t)high - low) * (reader->operands - before));
         }
     }
     if (low > high) {
@@ -466,7 +462,7 @@ static gm_node_id read_sum(struct reader *reader, size_t begin, bool is_sum)
 {
     struct loop loop = {.operation = is_sum ? GM_OPERATION_ADD : GM_OPERATION_MULTIPLY, .begin = begin};
     if (!is_head(reader)) {
-        return expected(reader, "an index, as in sum(i = 1 .. 3, q[i]),");
+        expected(reader, "an index, as in sum(i = 1 .. 3, q[i]),");
     }
     read_loop(reader, &loop);
     need_sign(reader, ')', ")");
@@ -513,21 +509,19 @@ static gm_node_id read_comparison(struct reader *reader)
         return node;
     }
     const gm_node_id left = read_expression(reader, 0);
-    const char sign = reader->failed ? '<' : peek(reader);
+    const char sign = peek(reader);
     const size_t place = reader->at;
     if (sign == '=' || sign == '!') {
-        return fail(reader, place, "equality of computed numbers is not a condition; use an event");
+        fail(reader, place, "equality of computed numbers is not a condition; use an event");
     }
-    if (sign != '<' && sign != '>') {
-        return fail(reader, place,
-                    "a condition compares two values, as in x > 0: <, <=, > or >= was expected");
-    }
+    fail_if(reader, sign != '<' && sign != '>', place,
+            "a condition compares two values, as in x > 0: <, <=, > or >= was expected");
     reader->at++;
     const bool equal = reader->at < reader->end && reader->text[reader->at] == '=';
     reader->at += equal;
     const gm_node_id right = read_expression(reader, 0);
-    if (!reader->failed && (peek(reader) == '<' || peek(reader) == '>')) {
-        return fail(reader, reader->at, "a condition compares two values: write a < b and b < c");
+    if (peek(reader) == '<' || peek(reader) == '>') {
+        fail(reader, reader->at, "a condition compares two values: write a < b and b < c");
     }
     const bool turned = (sign == '>') != equal; /* a <= b is not b < a */
     reader->graph->place = (uint32_t)place;
@@ -544,14 +538,13 @@ static gm_node_id read_all(struct reader *reader)
     do {
         const bool not = take_word(reader, "not");
         if (++reader->depth > DEEPEST) {
-            return fail(reader, reader->at, "parentheses, powers or signs are nested more than %d deep",
-                        DEEPEST);
+            fail(reader, reader->at, "parentheses, powers or signs are nested more than %d deep", DEEPEST);
         }
         const gm_node_id one = read_comparison(reader), node = not ? other_than(reader, one) : one;
         reader->depth--;
         all = first ? node : gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY, all, node);
         first = false;
-    } while (!reader->failed && take_word(reader, "and"));
+    } while (take_word(reader, "and"));
     return all;
 }
 
@@ -559,7 +552,7 @@ static gm_node_id read_all(struct reader *reader)
 static gm_node_id read_condition(struct reader *reader)
 {
     gm_node_id any = read_all(reader);
-    while (!reader->failed && take_word(reader, "or")) {
+    while (take_word(reader, "or")) {
         const gm_node_id next = read_all(reader);
         any = other_than(reader, gm_formula_apply(reader->graph, GM_OPERATION_MULTIPLY,
                                                   other_than(reader, any), other_than(reader, next)));
@@ -572,20 +565,17 @@ static gm_node_id read_choice(struct reader *reader, size_t begin)
 {
     gm_node_id parts[2] = {0, 0};
     const gm_node_id condition = read_condition(reader);
-    for (int i = 0; i < 2 && !reader->failed; i++) {
+    for (int i = 0; i < 2; i++) {
         if (!take(reader, ',')) {
-            return fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)");
+            fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)");
         }
         parts[i] = read_expression(reader, 0);
     }
-    if (!reader->failed && !take(reader, ')')) {
-        return peek(reader) == ','
-                   ? fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)")
-                   : expected(reader, ")");
+    if (peek(reader) == ',') {
+        fail(reader, reader->at, "if takes a condition and two values: if(x > 0, a, b)");
     }
-    if (reader->failed || reader->graph->failed) {
-        return 0;
-    }
+    need_sign(reader, ')', ")");
+    need_graph(reader);
     reader->graph->place = (uint32_t)begin;
     const gm_node_id other = other_than(reader, condition);
     if (reader->graph->nodes[condition].operation == GM_CONSTANT) {
@@ -596,25 +586,31 @@ static gm_node_id read_choice(struct reader *reader, size_t begin)
                             gm_formula_apply(reader->graph, GM_OPERATION_CHOSEN, other, parts[1]));
 }
 
+/* Takes the ) of a name that is called, and makes its node. */
+static gm_node_id make_called(struct reader *reader, size_t begin, const struct gm_name *name,
+                              const gm_node_id *operands, size_t count)
+{
+    char sentence[GM_FAULT_SENTENCE] = "";
+    gm_node_id node = 0;
+    need_sign(reader, ')', ")");
+    reader->graph->place = (uint32_t)begin;
+    if (reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) != GM_KNOWN) {
+        fail(reader, begin, "%s", sentence);
+    }
+    return node;
+}
+
 /* Reads the operands that follow the first `count` ones, and makes the node of a name that is called. */
 static gm_node_id read_called(struct reader *reader, size_t begin, const struct gm_name *name,
                               gm_node_id *operands, size_t count)
 {
-    char sentence[GM_FAULT_SENTENCE] = "";
-    gm_node_id node = 0;
     do {
         if (count == GM_MOST_OPERANDS) {
-            return expected(reader, ")");
+            expected(reader, ")");
         }
         operands[count++] = read_expression(reader, 0);
-    } while (!reader->failed && take(reader, ','));
-    need_sign(reader, ')', ")");
-    reader->graph->place = (uint32_t)begin;
-    if (!reader->failed &&
-        reader->scope.call(reader->scope.data, name, operands, count, &node, sentence) != GM_KNOWN) {
-        return fail(reader, begin, "%s", sentence);
-    }
-    return node;
+    } while (take(reader, ','));
+    return make_called(reader, begin, name, operands, count);
 }
 
 /* Reads a first operand, NAME before a comma, that the scope takes as a word. Returns the number of operands read. */
@@ -643,29 +639,24 @@ static gm_node_id read_call(struct reader *reader, size_t begin, enum gm_operati
 
     const struct gm_operation_row *row = &gm_operation_rows[operation];
     gm_node_id operands[2] = {0, 0};
-    for (unsigned i = 0; i < row->arity && !reader->failed; i++) {
+    for (unsigned i = 0; i < row->arity; i++) {
         const struct gm_name name = {.text = row->name, .length = strlen(row->name)};
         if (i > 0 && peek(reader) == ')' && reader->scope.calls &&
             reader->scope.calls(reader->scope.data, &name)) { /* of one operand it is another function */
-            char sentence[GM_FAULT_SENTENCE] = "";
-            gm_node_id node = 0;
-            take(reader, ')');
-            reader->graph->place = (uint32_t)begin;
-            return reader->scope.call(reader->scope.data, &name, operands, 1, &node, sentence) == GM_KNOWN
-                       ? node
-                       : fail(reader, begin, "%s", sentence);
+            return make_called(reader, begin, &name, operands, 1);
         }
-        if (i > 0 && !take(reader, ',')) {
-            return peek(reader) == ')' ? fail(reader, reader->at, "%s takes two values", row->name)
-                                       : expected(reader, "a comma");
+        if (i > 0 && peek(reader) == ')') {
+            fail(reader, reader->at, "%s takes two values", row->name);
+        }
+        if (i > 0) {
+            need_sign(reader, ',', "a comma");
         }
         operands[i] = read_expression(reader, 0);
     }
-    if (!reader->failed && !take(reader, ')')) {
-        return peek(reader) == ',' ? fail(reader, reader->at, "%s takes %s", row->name,
-                                          row->arity == 1 ? "one value" : "two values")
-                                   : expected(reader, ")");
+    if (peek(reader) == ',') {
+        fail(reader, reader->at, "%s takes %s", row->name, row->arity == 1 ? "one value" : "two values");
     }
+    need_sign(reader, ')', ")");
     reader->graph->place = (uint32_t)begin;
     return gm_formula_apply(reader->graph, operation, operands[0], operands[1]);
 }
@@ -677,7 +668,8 @@ static gm_node_id read_span(struct reader *reader, struct gm_span span, bool is_
     reader->at = span.begin;
     reader->end = span.end;
     const gm_node_id node = is_condition ? read_condition(reader) : read_expression(reader, 0);
-    const char next = reader->failed || reader->graph->failed ? '\0' : peek(reader);
+    need_graph(reader);
+    const char next = peek(reader);
     if (next == '<' || next == '>') {
         fail(reader, reader->at, "a condition belongs in the first place of if( and in section:");
     } else if (next == '(' || next == '.' || gm_is_letter(next) || is_digit(next)) {
@@ -688,7 +680,7 @@ static gm_node_id read_span(struct reader *reader, struct gm_span span, bool is_
         expected(reader, "an operator");
     }
     reader->end = end;
-    reader->at = reader->failed ? end : at;
+    reader->at = at;
     return node;
 }
 
@@ -701,8 +693,8 @@ static gm_node_id read_argument(struct reader *reader, size_t number)
         return argument->node;
     }
     if (argument->text.begin == argument->text.end) {
-        return reader->fixed > 0 ? fail(reader, reader->at, "%s", "")
-                                 : gm_formula_constant(reader->graph, NAN);
+        fail_if(reader, reader->fixed > 0, reader->at, "%s", "");
+        return gm_formula_constant(reader->graph, NAN);
     }
     const unsigned hidden = reader->hidden;
     reader->call = (struct call *)call->caller;
@@ -725,7 +717,7 @@ static gm_node_id read_body(struct reader *reader, struct call *call)
     reader->call = call;
     reader->hidden = (1U << call->first) - 1;
     const gm_node_id node = read_span(reader, definition->body, false);
-    for (size_t i = 0; i < definition->count && !reader->failed; i++) {
+    for (size_t i = 0; i < definition->count; i++) {
         read_argument(reader, i); /* an operand that the body does not use may have a fault */
     }
     reader->hidden = call->hidden;
@@ -746,24 +738,18 @@ static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_de
         const size_t operand = reader->at;
         skip(reader, true);
         if (operand == reader->at) {
-            return expected(reader, "a value");
+            expected(reader, "a value");
         }
         if (count < GM_MOST_ARGUMENTS) {
             call.arguments[count].text = (struct gm_span){operand, reader->at};
         }
         count++;
     }
-    if (!take(reader, ')')) {
-        return expected(reader, ")");
-    }
-    if (count != definition->count) {
-        return fail(reader, begin, "%.*s takes %zu argument%s, not %zu", length, name, definition->count,
-                    definition->count == 1 ? "" : "s", count);
-    }
+    need_sign(reader, ')', ")");
+    fail_if(reader, count != definition->count, begin, "%.*s takes %zu argument%s, not %zu", length, name,
+            definition->count, definition->count == 1 ? "" : "s", count);
     for (const struct call *caller = reader->call; caller; caller = caller->caller) {
-        if (caller->definition == definition) {
-            return fail(reader, begin, "%.*s is defined by itself", length, name);
-        }
+        fail_if(reader, caller->definition == definition, begin, "%.*s is defined by itself", length, name);
     }
     return read_body(reader, &call);
 }
@@ -780,7 +766,7 @@ static bool take_zero(struct reader *reader)
 }
 
 /* Refuses the parenthesis behind a name that is not a function. */
-static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
+_Noreturn static void refuse_call(struct reader *reader, const struct gm_name *name)
 {
     const size_t begin = reader->at++;
     const int brief = gm_brief_length(name->length);
@@ -790,8 +776,8 @@ static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
     start.initial = true;
     if (!reader->scope.initial ||
         reader->scope.find(reader->scope.data, &start, &node, sentence) != GM_KNOWN) {
-        return fail(reader, begin, "%.*s is not a function; a product is written with *: %.*s*(", brief,
-                    name->text, brief, name->text);
+        fail(reader, begin, "%.*s is not a function; a product is written with *: %.*s*(", brief, name->text,
+             brief, name->text);
     }
     peek(reader);
     const char *inside = reader->text + reader->at;
@@ -803,12 +789,11 @@ static gm_node_id refuse_call(struct reader *reader, const struct gm_name *name)
     const bool brief_too = length < 40 && !memchr(inside, '\n', length);
     const char *shown = brief_too ? inside : "...";
     strtod(inside, &end);
-    return fail(
-        reader, begin,
-        length > 0 && end == inside + length
-            ? "%.*s(%.*s): only %.*s(0), the start, is known"
-            : "%.*s(%.*s) is a delay; delay equations are not solved; a product is written with *: %.*s*(",
-        brief, name->text, brief_too ? (int)length : 3, shown, brief, name->text);
+    fail(reader, begin,
+         length > 0 && end == inside + length
+             ? "%.*s(%.*s): only %.*s(0), the start, is known"
+             : "%.*s(%.*s) is a delay; delay equations are not solved; a product is written with *: %.*s*(",
+         brief, name->text, brief_too ? (int)length : 3, shown, brief, name->text);
 }
 
 static gm_node_id read_name(struct reader *reader, bool exact);
@@ -818,7 +803,7 @@ static gm_node_id read_exact(struct reader *reader)
 {
     take(reader, '(');
     if (!gm_is_letter(peek(reader))) {
-        return expected(reader, "a component, as in exact(x),");
+        expected(reader, "a component, as in exact(x),");
     }
     const gm_node_id node = read_name(reader, true);
     need_sign(reader, ')', ")");
@@ -847,11 +832,11 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         return read_exact(reader);
     }
     if (exact && (sum || product || function != GM_CONSTANT || is_constant)) {
-        return fail(reader, begin, "%.*s is not a component: it has no exact solution", brief, name.text);
+        fail(reader, begin, "%.*s is not a component: it has no exact solution", brief, name.text);
     }
     if (sum || product || (function != GM_CONSTANT && (function != GM_OPERATION_BELOW || scope->derives))) {
         if (!take(reader, '(')) {
-            return fail(reader, reader->at, "%.*s is a function: ( was expected", brief, name.text);
+            fail(reader, reader->at, "%.*s is a function: ( was expected", brief, name.text);
         }
         return sum || product ? read_sum(reader, begin, sum) : read_call(reader, begin, function);
     }
@@ -879,27 +864,27 @@ static gm_node_id read_name(struct reader *reader, bool exact)
         name.initial = scope->initial && !exact && take_zero(reader);
         char sentence[GM_FAULT_SENTENCE] = "";
         reader->graph->place = (uint32_t)begin;
-        const enum gm_meaning meaning = reader->failed ? GM_KNOWN
-                                        : scope->find  ? scope->find(scope->data, &name, &node, sentence)
-                                                       : GM_UNKNOWN;
+        const enum gm_meaning meaning =
+            scope->find ? scope->find(scope->data, &name, &node, sentence) : GM_UNKNOWN;
         if (meaning == GM_UNKNOWN) {
-            return unknown(reader, begin, name.text, length,
-                           called && after == reader->at ? "function" : "name");
+            unknown(reader, begin, name.text, length, called && after == reader->at ? "function" : "name");
         }
         if (meaning != GM_KNOWN) {
-            return fail(reader, begin, "%s", sentence);
+            fail(reader, begin, "%s", sentence);
         }
     }
-    return !reader->failed && peek(reader) == '(' ? refuse_call(reader, &name) : node;
+    if (peek(reader) == '(') {
+        refuse_call(reader, &name);
+    }
+    return node;
 }
 
 static gm_node_id read_operand(struct reader *reader)
 {
     const char next = peek(reader);
     reader->operands += reader->fixed > 0 ? 1 : OF_AN_INDEX;
-    if (!has_room_for(reader, reader->at, reader->operands)) {
-        return 0;
-    }
+    need_room_for(reader, reader->at, reader->operands);
+    need_graph(reader);
     if (is_digit(next) || next == '.') {
         return read_number(reader);
     }
@@ -911,10 +896,9 @@ static gm_node_id read_operand(struct reader *reader)
         need_sign(reader, ')', ")");
         return node;
     }
-    if (next == '*' && reader->at > 0 && reader->text[reader->at - 1] == '*') {
-        return fail(reader, reader->at - 1, "a power is written with ^, not with **");
-    }
-    return expected(reader, "a number, a name or (");
+    fail_if(reader, next == '*' && reader->at > 0 && reader->text[reader->at - 1] == '*', reader->at - 1,
+            "a power is written with ^, not with **");
+    expected(reader, "a number, a name or (");
 }
 
 /* Reads an operand with all operators of a priority above `limit`. */
@@ -924,21 +908,18 @@ static gm_node_id read_expression(struct reader *reader, int limit)
     const size_t begin = reader->at;
     struct gm_formula *graph = reader->graph;
     gm_node_id left = 0;
-    if (reader->failed || graph->failed) {
-        return 0;
-    }
     if (++reader->depth > DEEPEST) {
         fail(reader, begin, "parentheses, powers or signs are nested more than %d deep", DEEPEST);
-    } else if (first == '-' || first == '+') {
+    }
+    if (first == '-' || first == '+') {
         reader->at++;
         left = read_expression(reader, UNARY);
         graph->place = (uint32_t)begin;
-        left =
-            first == '-' && !reader->failed ? gm_formula_apply(graph, GM_OPERATION_NEGATE, left, left) : left;
+        left = first == '-' ? gm_formula_apply(graph, GM_OPERATION_NEGATE, left, left) : left;
     } else {
         left = read_operand(reader);
     }
-    for (size_t i = 0; i < sizeof operators / sizeof *operators && !reader->failed && !graph->failed;) {
+    for (size_t i = 0; i < sizeof operators / sizeof *operators;) {
         if (peek(reader) != operators[i].sign || operators[i].left <= limit) {
             i++;
             continue;
@@ -946,7 +927,7 @@ static gm_node_id read_expression(struct reader *reader, int limit)
         reader->at++;
         const gm_node_id right = read_expression(reader, operators[i].right);
         graph->place = (uint32_t)begin;
-        left = reader->failed ? 0 : gm_formula_apply(graph, operators[i].operation, left, right);
+        left = gm_formula_apply(graph, operators[i].operation, left, right);
         i = 0;
     }
     reader->depth--;
@@ -959,9 +940,13 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
     struct reader reader = {
         .graph = graph, .scope = *scope, .text = text, .at = begin, .end = end, .fault = fault};
     *fault = (struct gm_fault){.offset = begin};
-    *node = read_span(&reader, (struct gm_span){begin, end}, scope->is_condition);
+    *node = 0;
+    const bool whole = setjmp(reader.leave) == 0;
+    if (whole) {
+        *node = read_span(&reader, (struct gm_span){begin, end}, scope->is_condition);
+    }
     graph->place = GM_NO_PLACE;
-    return !reader.failed && !graph->failed;
+    return whole;
 }
 
 bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_definition *definition,
@@ -970,9 +955,12 @@ bool gm_formula_check(struct gm_formula *graph, const char *text, struct gm_defi
     struct reader reader = {.graph = graph, .scope = *scope, .text = text, .fault = fault};
     struct call call = {.definition = definition};
     *fault = (struct gm_fault){.offset = definition->body.begin};
-    read_body(&reader, &call);
+    const bool whole = setjmp(reader.leave) == 0;
+    if (whole) {
+        read_body(&reader, &call);
+    }
     graph->place = GM_NO_PLACE;
-    return !reader.failed && !graph->failed;
+    return whole;
 }
 
 size_t gm_text_valid(const char *text, size_t length)

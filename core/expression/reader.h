@@ -3,6 +3,8 @@
 #ifndef GM_CORE_EXPRESSION_READER_H
 #define GM_CORE_EXPRESSION_READER_H
 
+#include <string.h>
+
 #include "core/expression/graph.h"
 
 /* Operators by their priority: + and -, * and /, minus before an operand, ^, which binds to the right and may
@@ -109,6 +111,11 @@ bool gm_is_random(const char *word);
 bool gm_is_letter(char character); /* a letter or _ begins a name */
 /* The length in bytes of the name at text[0 .. length); 0: none begins there. */
 size_t gm_name_length(const char *text, size_t length);
+/* True if two texts of these lengths are the same. */
+static inline bool gm_text_same(const char *a, size_t length, const char *b, size_t other)
+{
+    return length == other && memcmp(a, b, length) == 0;
+}
 /* The letters of a name that a sentence shows. */
 static inline int gm_brief_length(size_t length)
 {

@@ -14,20 +14,10 @@ gm_residue gm_residue_power(gm_residue a, uint64_t n)
     return result;
 }
 
-/* Euclid's algorithm: `inverse` times a and `rest` differ by a multiple of the prime. */
+/* a^(p - 1) = 1 */
 gm_residue gm_residue_inverse(gm_residue a)
 {
-    uint64_t before = GM_PRIME, rest = a;
-    int64_t inverse_before = 0, inverse = a != 0;
-    while (rest > 1) {
-        const uint64_t quotient = before / rest, next = before % rest;
-        const int64_t inverse_next = inverse_before - (int64_t)quotient * inverse;
-        before = rest;
-        rest = next;
-        inverse_before = inverse;
-        inverse = inverse_next;
-    }
-    return (gm_residue)(inverse < 0 ? inverse + (int64_t)GM_PRIME : inverse);
+    return gm_residue_power(a, GM_PRIME - 2);
 }
 
 /* Steele, Lea, Flood: SplitMix64 */

@@ -274,7 +274,7 @@ static struct gm_span take_name(const struct gm_reading *reading, struct gm_room
 static void read_line(struct room_reading *here, const struct gm_read_line *said, enum gm_room_word word)
 {
     struct gm_room *room = here->room;
-    gm_reading_reserve(&here->reading, (void **)&room->lines, room->count, sizeof *room->lines);
+    room->lines = gm_arena_grown(here->reading.system->arena, room->lines, room->count, sizeof *room->lines);
     struct gm_room_line *line = &room->lines[room->count];
     *line = (struct gm_room_line){.word = word, .place = said->value.begin};
     const bool named = pairs[word].names < START;

@@ -5,7 +5,6 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -23,8 +22,8 @@ static const struct gm_system_variable unsaid = {.value = NAN,
 static struct gm_system_variable *add_variable(struct gm_reading *reading, const struct gm_entry *entry)
 {
     struct gm_user_system *system = reading->system;
-    gm_reading_reserve(reading, (void **)&system->variables, system->variable_count,
-                       sizeof *system->variables);
+    system->variables =
+        gm_arena_grown(system->arena, system->variables, system->variable_count, sizeof *system->variables);
     struct gm_system_variable *variable = &system->variables[system->variable_count++];
     *variable = unsaid;
     variable->name = entry->indexed ? gm_arena_print(system->arena, "%.*s[%ld]", (int)entry->length,
@@ -406,11 +405,14 @@ static bool pair_components(struct gm_reading *reading, size_t *order)
         struct gm_span rest = reading->lines[i].value, piece;
         while (reading->lines[i].word == GM_WORD_RATE && gm_span_take(reading->text, &rest, ",", &piece)) {
             const size_t equals = gm_span_until(reading->text, piece, "=");
+            if (equals == piece.end) { /* it is refused when it is read */
+                return false;
+            }
             const size_t x = component_named(reading, (struct gm_span){piece.begin, equals}),
                          v = component_named(reading, (struct gm_span){equals + 1, piece.end});
             const bool damped =
                 n == 2 && v == SIZE_MAX && names(reading, (struct gm_span){equals + 1, piece.end}, x);
-            if (equals == piece.end || x == SIZE_MAX || damped) {
+            if (x == SIZE_MAX || damped) {
                 return false;
             }
             if (v != SIZE_MAX) {
@@ -565,10 +567,7 @@ static struct gm_form_declared form_of(struct gm_reading *reading, struct gm_spa
     const size_t end = piece.end, equals = gm_span_until(reading->text, piece, "=");
     *name = gm_reading_between(reading, piece.begin, equals);
     const char *text = gm_reading_text(reading, gm_reading_between(reading, equals + (equals < end), end));
-    size_t degree = 0;
-    while (degrees[degree] && strcmp(degrees[degree], text) != 0) {
-        degree++;
-    }
+    const size_t degree = gm_span_among(text, (struct gm_span){0, strlen(text)}, degrees);
     const int length = gm_brief_length(name->end - name->begin);
     gm_system_refuse_if(reading->system, !degrees[degree] && equals == end, name->begin,
                         "%.*s has no degree: write %s: %.*s = 0-form", length, reading->text + name->begin,
@@ -589,7 +588,8 @@ static void add_forms(struct gm_reading *reading, enum gm_system_word word)
     struct gm_user_system *system = reading->system;
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
         const struct gm_form_declared form = form_of(reading, piece, word, &name);
-        gm_reading_reserve(reading, (void **)&system->forms, reading->component_count, sizeof *system->forms);
+        system->forms =
+            gm_arena_grown(system->arena, system->forms, reading->component_count, sizeof *system->forms);
         system->forms[reading->component_count] = form;
         const struct gm_target target = gm_reading_target(reading, &name);
         add_names(reading, &target, GM_ENTRY_COMPONENT, &reading->component_count);
@@ -690,7 +690,7 @@ void gm_declared_relations(struct gm_reading *reading)
         const struct gm_entry *entry = &reading->entries[i];
         if (entry->role == GM_ENTRY_PARAMETER && entry->value.begin < entry->value.end) {
             const size_t number = system->parameters + entry->number;
-            const gm_node_id node = gm_reading_bound(reading, entry->value, &entry->bound, entry->element);
+            const gm_node_id node = gm_reading_formula(reading, entry->value);
             system->variables[number].start = node;
             /* half the length of the line is a key unless it follows from others */
             system->variables[number].derived |= number == system->velocities - 2 &&
@@ -714,8 +714,8 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
 {
     const struct gm_user_system *system = reading->system;
     struct gm_span left, argument;
-    gm_reading_reserve(reading, (void **)&reading->definitions, reading->definition_count,
-                       sizeof *reading->definitions);
+    reading->definitions = gm_arena_grown(reading->system->arena, reading->definitions,
+                                          reading->definition_count, sizeof *reading->definitions);
     const struct gm_target target = gm_reading_target(reading, &rest);
     gm_span_take(reading->text, &rest, "=", &left);
     struct gm_definition *definition = &reading->definitions[reading->definition_count];
@@ -733,8 +733,7 @@ static void add_function(struct gm_reading *reading, struct gm_span rest)
         bool twice = false;
         for (size_t i = 0; i < definition->count; i++) {
             const struct gm_span other = definition->arguments[i];
-            twice |=
-                other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0;
+            twice |= gm_text_same(reading->text + other.begin, other.end - other.begin, name, length);
         }
         gm_system_refuse_if(system,
                             length == 0 || argument.begin + length < argument.end ||

@@ -9,7 +9,6 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
-#include "core/expression/pfaffian.h"
 #include "core/linear/iteration.h"
 #include "core/tape.h"
 
@@ -163,7 +162,7 @@ static void derive_poisson(struct gm_user_system *system, const gm_node_id *grad
     }
 }
 
-/* momenta, forces, and the mass matrix */
+/* momenta and forces */
 static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *gradient)
 {
     const size_t half = system->n / 2;
@@ -171,8 +170,13 @@ static void derive_lagrangian(struct gm_user_system *system, const gm_node_id *g
         system->momenta[i] = gradient[system->velocities + i];
         system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
     }
-    gm_sparse_jacobian(&system->graph, system->momenta, half, marks_of(system, system->velocities, half),
-                       system->variable_count, &system->mass);
+}
+
+static void derive_mass(struct gm_user_system *system)
+{
+    const size_t half = system->n / 2;
+    system->mass = gm_sparse_jacobian(system->arena, &system->graph, system->momenta, half,
+                                      marks_of(system, system->velocities, half), system->variable_count);
     for (size_t i = 0; i < system->mass.count; i++) {
         system->mass.entries[i].column -= system->velocities;
     }
@@ -245,14 +249,9 @@ static void derive(struct gm_user_system *system)
     }
     system->timed |= !rates && timed[system->energy];
     gm_arena_release(system->arena, mark);
-}
-
-/* True for a velocity of a Lagrangian. */
-static bool is_velocity(struct gm_formula *graph, gm_node_id part, const void *data)
-{
-    const struct gm_user_system *system = data;
-    const struct gm_node *node = &graph->nodes[part];
-    return node->operation == GM_VARIABLE && node->a >= system->velocities && node->a < system->initial;
+    if (system->kind == GM_LAGRANGIAN) {
+        derive_mass(system);
+    }
 }
 
 bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes, size_t count)
@@ -272,7 +271,8 @@ bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes
 static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id node, gm_node_id *direction)
 {
     const size_t half = system->n / 2;
-    if (gm_formula_first(&system->graph, node, is_velocity, system) != GM_NO_NODE) {
+    if (gm_formula_holds(&system->graph, node, marks_of(system, system->velocities, half),
+                         system->variable_count)) {
         return GM_NO_NODE;
     }
     for (size_t i = 0; i < half; i++) {
@@ -506,34 +506,20 @@ static _Noreturn void refuse_symmetry(struct gm_user_system *system, const struc
                      point);
 }
 
-/* The variables that a formula may contain beside parameters: the first `below` ones, and those in a list. */
-struct allowed {
-    const struct gm_user_system *system;
-    size_t below;
-    const size_t *numbers;
-    size_t count;
-};
-
-static bool is_foreign(struct gm_formula *graph, gm_node_id part, const void *data)
+/* A flag for each variable but parameters and `count` ones from number `first` on. */
+static bool *others_than(const struct gm_user_system *system, size_t first, size_t count)
 {
-    const struct allowed *allowed = data;
-    const struct gm_node *node = &graph->nodes[part];
-    size_t k = 0;
-    if (node->operation != GM_VARIABLE || node->a < allowed->below ||
-        (node->a >= allowed->system->parameters && node->a < allowed->system->velocities)) {
-        return false;
-    }
-    while (k < allowed->count && allowed->numbers[k] != node->a) {
-        k++;
-    }
-    return k == allowed->count;
+    bool *others = marks_of(system, 0, system->variable_count);
+    memset(others + system->parameters, false, system->velocities - system->parameters);
+    memset(others + first, false, count);
+    return others;
 }
 
 /* True if a node depends only on parameters and the first `components` components. */
 static bool is_of_components(struct gm_user_system *system, gm_node_id node, size_t components)
 {
-    const struct allowed allowed = {system, components, NULL, 0};
-    return gm_formula_first(&system->graph, node, is_foreign, &allowed) == GM_NO_NODE;
+    return !gm_formula_holds(&system->graph, node, others_than(system, 0, components),
+                             system->variable_count);
 }
 
 /* A surface is fixed: its size depends only on parameters and conserved quantities. */
@@ -904,10 +890,8 @@ static void check_constraints(struct gm_user_system *system, const double *start
         gm_system_refuse_if(system, !is_of_components(system, item->nodes[0], half), item->place,
                             "a constraint holds coordinates and parameters alone");
     }
-    struct gm_sparse slopes = {0};
-    gm_sparse_keep(system->arena, &slopes,
-                   gm_sparse_jacobian(&system->graph, nodes, count, marks_of(system, 0, half),
-                                      system->variable_count, &slopes));
+    const struct gm_sparse slopes = gm_sparse_jacobian(system->arena, &system->graph, nodes, count,
+                                                       marks_of(system, 0, half), system->variable_count);
     double *matrix = gm_arena_take(system->arena, count * half + 1, sizeof *matrix),
            *rates = gm_arena_take(system->arena, count + 1, sizeof *rates);
     const double *values = gm_equations_values(system, start);
@@ -1048,13 +1032,12 @@ static void check_start(struct gm_user_system *system)
     gm_arena_release(system->arena, mark);
 }
 
-/* A field's formula has no other component, time or place than these numbers. A fault is at the place of the item, as
-   other lines may contain the variable too; NULL: of the node. */
-static void need_only(struct gm_user_system *system, gm_node_id node, const size_t *numbers, size_t count,
-                      const char *what, const struct gm_system_item *item)
+/* A field's formula does not hold the others. A fault is at the place of the item, as other lines may contain the
+   variable too; NULL: of the node. */
+static void need_none(struct gm_user_system *system, gm_node_id node, const bool *others, const char *what,
+                      const struct gm_system_item *item)
 {
-    const struct allowed allowed = {system, 0, numbers, count};
-    const gm_node_id part = gm_formula_first(&system->graph, node, is_foreign, &allowed);
+    const gm_node_id part = gm_formula_first_marked(&system->graph, node, others, system->variable_count);
     if (part != GM_NO_NODE) {
         const size_t place = system->graph.places[node] == GM_NO_PLACE ? 0 : system->graph.places[node];
         gm_system_refuse(system, item ? item->place : place, "%s does not hold %.60s", what,
@@ -1074,35 +1057,43 @@ static void need_smooth(struct gm_user_system *system, const char *what)
     }
 }
 
+/* All but the fields, the place, and derivatives: `count` variables from the place on. */
+static bool *others_in_density(const struct gm_user_system *system, size_t count)
+{
+    bool *others = others_than(system, system->velocities, count);
+    memset(others, false, system->n);
+    return others;
+}
+
 /* Checks the variables in starts, exact solutions, densities and numbers of a field. */
 static void check_line(struct gm_user_system *system, size_t densities)
 {
-    const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
-    size_t in_density[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
-    for (size_t i = 0; i < n + densities; i++) {
-        in_density[i] = i < n ? i : x + i - n;
-    }
+    const size_t n = system->n;
+    const bool *in_number = others_than(system, 0, 0), *in_start = others_than(system, system->velocities, 1),
+               *in_density = others_in_density(system, densities);
+    bool *in_exact = others_than(system, system->velocities, 1);
+    in_exact[n] = false;
     for (size_t i = 0; i < n; i++) {
         const struct gm_system_variable *field = &system->variables[i];
-        need_only(system, field->start, in_start, 1, "the start of a field", NULL);
+        need_none(system, field->start, in_start, "the start of a field", NULL);
         if (field->exact != GM_NO_NODE) {
-            need_only(system, field->exact, in_exact, 2, "the exact solution of a field", NULL);
+            need_none(system, field->exact, in_exact, "the exact solution of a field", NULL);
         }
     }
     if (system->drift != GM_NO_NODE) {
-        need_only(system, system->drift, in_start, 1, "the start of a field", NULL);
+        need_none(system, system->drift, in_start, "the start of a field", NULL);
     }
     for (size_t i = 0; i < system->item_count; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             item->check = GM_UNTESTED;
-            need_only(system, item->nodes[0], in_density, n + densities, "a density", NULL);
+            need_none(system, item->nodes[0], in_density, "a density", NULL);
         }
         const bool constant = item->word == GM_WORD_ENDS || item->word == GM_WORD_ALPHA;
         const char *what = item->word == GM_WORD_ENDS ? "ends:" : "alpha:";
         for (size_t k = 0; constant && k < item->count + item->option_count; k++) {
             const gm_node_id node = k < item->count ? item->nodes[k] : item->options[k - item->count].node;
-            need_only(system, node, NULL, 0, what, item);
+            need_none(system, node, in_number, what, item);
         }
     }
 }
@@ -1160,24 +1151,20 @@ static void check_masses(struct gm_user_system *system)
 
 static void check_evolution(struct gm_user_system *system)
 {
-    const size_t n = system->n, derivatives = GM_MOST_DERIVATIVES * n;
-    size_t in_rate[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
-    for (size_t i = 0; i < n + derivatives + 1; i++) {
-        in_rate[i] = i < n ? i : system->velocities + i - n;
-    }
-    for (size_t i = 0; i < n; i++) {
-        need_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field", NULL);
+    const size_t densities = GM_MOST_DERIVATIVES * system->n + 1;
+    const bool *in_rate = others_in_density(system, densities);
+    for (size_t i = 0; i < system->n; i++) {
+        need_none(system, system->rates[i], in_rate, "the rate of a field", NULL);
     }
     check_masses(system);
-    check_line(system, derivatives + 1);
+    check_line(system, densities);
 }
 
 static void check_field(struct gm_user_system *system)
 {
     enum { U, U_T };
-    const size_t in_v[] = {U};
     need_smooth(system, "V");
-    need_only(system, system->energy, in_v, 1, "V", NULL);
+    need_none(system, system->energy, others_than(system, U, 1), "V", NULL);
     gm_system_refuse_if(system, system->variables[U_T].exact != GM_NO_NODE, 0, "exact: is of %.60s alone",
                         system->variables[U].name);
     check_line(system, 2);
@@ -1189,12 +1176,13 @@ static void check_skew(struct gm_user_system *system, size_t which)
     const size_t n = system->n;
     const gm_node_id *entries = system->matrices + which * n * n;
     const size_t *places = system->matrix_places + which * n * n;
+    const bool *in_entry = others_than(system, 0, 0);
     const char *name = which == 0 ? "K" : "L";
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j <= i; j++) {
             const size_t pair[] = {i * n + j, j * n + i};
             for (size_t side = 0; side < 2; side++) {
-                need_only(system, entries[pair[side]], NULL, 0, "an entry of a matrix", NULL);
+                need_none(system, entries[pair[side]], in_entry, "an entry of a matrix", NULL);
             }
             for (size_t side = 0; side < 2; side++) {
                 const struct gm_node *entry = &system->graph.nodes[entries[pair[side]]];
@@ -1219,11 +1207,9 @@ static void check_determined(struct gm_user_system *system)
 {
     enum { TRIALS = 4 };
     const size_t n = system->n;
-    struct gm_sparse hessian = {0};
     double *values = gm_arena_keep(system->arena, gm_equations_start(system, NULL), free);
-    gm_sparse_keep(system->arena, &hessian,
-                   gm_sparse_jacobian(&system->graph, system->rates, n, marks_of(system, 0, n),
-                                      system->variable_count, &hessian));
+    const struct gm_sparse hessian = gm_sparse_jacobian(system->arena, &system->graph, system->rates, n,
+                                                        marks_of(system, 0, n), system->variable_count);
     size_t free_one = 0;
     for (int trial = 0; trial < TRIALS && free_one < n; trial++) {
         double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];
@@ -1249,36 +1235,32 @@ static void check_determined(struct gm_user_system *system)
 
 static void check_matrices(struct gm_user_system *system)
 {
-    size_t in_s[GM_MOST_OF_MATRICES];
     for (size_t i = 0; i < system->n; i++) {
-        in_s[i] = i;
         if (system->variables[i].jump != GM_NO_NODE) {
-            need_only(system, system->variables[i].jump, NULL, 0, "a jump", NULL);
+            need_none(system, system->variables[i].jump, others_than(system, 0, 0), "a jump", NULL);
         }
     }
     check_skew(system, 0);
     check_skew(system, 1);
     need_smooth(system, "S");
-    need_only(system, system->energy, in_s, system->n, "S", NULL);
+    need_none(system, system->energy, others_than(system, 0, system->n), "S", NULL);
     check_determined(system);
     check_line(system, 1);
-}
-
-static bool is_tangent(struct gm_formula *graph, gm_node_id part, const void *system)
-{
-    const struct gm_node *node = &graph->nodes[part];
-    return node->operation == GM_VARIABLE && gm_system_is_tangent(system, node->a);
 }
 
 /* The motion does not depend on its tangents. */
 static void check_tangents(struct gm_user_system *system)
 {
     const size_t n = gm_system_motion(system);
+    bool *tangents = marks_of(system, 0, 0);
+    for (size_t i = 0; i < system->n; i++) {
+        tangents[i] = gm_system_is_tangent(system, i);
+    }
     for (size_t c = 0; c <= n && system->tangents > 0; c++) {
         const bool energy = c == n && system->kind == GM_CANONICAL;
         const gm_node_id node =
                              energy ? system->energy : system->rates[gm_system_component(system, c % n, 0)],
-                         part = gm_formula_first(&system->graph, node, is_tangent, system);
+                         part = gm_formula_first_marked(&system->graph, node, tangents, system->n);
         if (part != GM_NO_NODE) {
             gm_system_refuse(system, system->graph.places[part],
                              "the motion does not depend on its tangents");

@@ -917,40 +917,35 @@ static void deny_by(struct gm_user_system *system, struct gm_finding *finding, g
     }
 }
 
-/* All that the equations depend on, ascending; freed by the caller. */
-static gm_node_id *parts_of_equations(const struct gm_user_system *system, size_t *part_count)
+/* All that the equations depend on, ascending. */
+static const gm_node_id *parts_of_equations(struct gm_arena *arena, const struct gm_user_system *system,
+                                            size_t *part_count)
 {
     size_t count = 0;
-    gm_node_id *roots = malloc((system->n + 1) * sizeof *roots), *parts = NULL;
-    for (size_t i = 0; roots && i < system->n; i++) {
+    gm_node_id *roots = gm_arena_take(arena, system->n + 1, sizeof *roots);
+    for (size_t i = 0; i < system->n; i++) {
         roots[count] = system->rates[i];
         count += roots[count] != GM_NO_NODE;
     }
-    if (roots && system->kind != GM_RATES) {
+    if (system->kind != GM_RATES) {
         roots[count++] = system->energy;
     }
-    *part_count = 0;
-    if (roots) {
-        parts = gm_formula_parts_of(&system->graph, roots, count, part_count);
-    }
-    free(roots);
-    return parts;
+    return gm_arena_keep(arena, gm_formula_parts_of(&system->graph, roots, count, part_count), free);
 }
 
-/* A flag for each node that is not smooth in the state or the time; freed by the caller. */
-static bool *find_switches(const struct gm_user_system *system)
+/* A flag for each node that is not smooth in the state or the time. */
+static const bool *find_switches(struct gm_arena *arena, const struct gm_user_system *system)
 {
     const struct gm_formula *graph = &system->graph;
-    bool *varying = calloc(system->variable_count + 1, sizeof *varying);
-    for (size_t i = 0; varying && i < system->initial; i++) {
+    bool *varying = gm_arena_take(arena, system->variable_count, sizeof *varying);
+    for (size_t i = 0; i < system->initial; i++) {
         varying[i] = i < system->parameters || i >= system->velocities;
     }
-    bool *found = varying ? gm_formula_dependent(graph, varying, system->variable_count) : NULL;
-    for (gm_node_id i = 0; found && i < graph->count; i++) {
+    bool *found = gm_arena_keep(arena, gm_formula_dependent(graph, varying, system->variable_count), free);
+    for (gm_node_id i = 0; i < graph->count; i++) {
         const enum gm_operation operation = graph->nodes[i].operation;
         found[i] = found[i] && operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
     }
-    free(varying);
     return found;
 }
 
@@ -960,8 +955,8 @@ static void find_of_parts(const struct search *search)
     struct gm_user_system *system = search->system;
     size_t count = 0;
     gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE;
-    const gm_node_id *parts = gm_arena_keep(system->arena, parts_of_equations(system, &count), free);
-    const bool *switches = gm_arena_keep(system->arena, find_switches(system), free);
+    const gm_node_id *parts = parts_of_equations(system->arena, system, &count);
+    const bool *switches = find_switches(system->arena, system);
     for (size_t k = count; k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         rough = switches[parts[k]] ? parts[k] : rough;
@@ -1057,29 +1052,34 @@ static bool jumps(enum gm_operation operation)
     return operation != GM_OPERATION_ABS && operation != GM_OPERATION_MIN && operation != GM_OPERATION_MAX;
 }
 
-/* Writes the other switches that the text has, with their places. Returns false when out of memory. */
-static bool write_switches(const struct gm_user_system *system, gm_node_id first, FILE *out)
+/* A reason that is written. */
+struct reason {
+    const struct gm_user_system *system;
+    enum gm_fact fact;
+    const struct gm_finding *finding;
+    FILE *out;
+};
+
+/* Writes the other switches that the text has, with their places. */
+static void write_switches(struct gm_arena *arena, const struct reason *reason)
 {
     enum { MOST = 16 }; /* switches that are named */
+    const struct gm_user_system *system = reason->system;
     const struct gm_naming naming = gm_system_naming(system);
     size_t count = 0, named = 0;
-    gm_node_id *parts = parts_of_equations(system, &count);
-    bool *switches = find_switches(system);
-    for (size_t k = 0; switches && k < count && named < MOST; k++) {
+    const gm_node_id *parts = parts_of_equations(arena, system, &count);
+    const bool *switches = find_switches(arena, system);
+    for (size_t k = 0; k < count && named < MOST; k++) {
         const gm_node_id node = parts[k];
-        if (switches[node] && system->graph.places[node] != GM_NO_PLACE && node != first) {
+        if (switches[node] && system->graph.places[node] != GM_NO_PLACE && node != reason->finding->term) {
             char place[80], *text = gm_formula_text(&system->graph, node, &naming);
             write_place(system, node, false, place, sizeof place);
-            fprintf(out, "; %s%s: %s", text ? text : "a long term", place,
+            fprintf(reason->out, "; %s%s: %s", text ? text : "a long term", place,
                     jumps(system->graph.nodes[node].operation) ? "it jumps" : "its derivative jumps");
             free(text);
             named++;
         }
     }
-    const bool good = parts && switches;
-    free(parts);
-    free(switches);
-    return good;
 }
 
 /* Writes the term that is the reason, with its place. */
@@ -1093,34 +1093,39 @@ static void write_term(const struct gm_user_system *system, gm_node_id term, boo
     free(text);
 }
 
+static void write_reason(struct gm_arena *arena, void *data)
+{
+    const struct reason *reason = data;
+    const struct gm_user_system *system = reason->system;
+    const struct gm_finding *finding = reason->finding;
+    FILE *out = reason->out;
+    const bool in_rate = finding->component < system->n && reason->fact != GM_FACT_DIVERGENCE_FREE;
+    if (finding->holds) {
+        fprintf(out, "%s%s", rows[reason->fact].yes,
+                finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
+        return;
+    }
+    if (finding->term != GM_NO_NODE) {
+        write_term(system, finding->term, in_rate && system->kind != GM_RATES, out);
+    }
+    fprintf(out, "%s%s%s", finding->why ? finding->why : rows[reason->fact].no,
+            in_rate ? ", in the rate of " : "", in_rate ? system->variables[finding->component].name : "");
+    if (reason->fact == GM_FACT_SMOOTH) {
+        fputs(jumps(system->graph.nodes[finding->term].operation) ? ": it jumps" : ": its derivative jumps",
+              out);
+        write_switches(arena, reason);
+    }
+}
+
 char *gm_fact_reason(const struct gm_user_system *system, enum gm_fact fact, const struct gm_finding *finding)
 {
-    char *reason = NULL;
+    char *text = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&reason, &size);
-    const bool in_rate = finding->component < system->n && fact != GM_FACT_DIVERGENCE_FREE;
-    const gm_node_id term = finding->holds ? GM_NO_NODE : finding->term;
-    bool good = out != NULL;
-    if (!good) {
-        return NULL;
+    struct reason reason = {system, fact, finding, open_memstream(&text, &size)};
+    const bool written = reason.out && gm_arena_run_once(write_reason, &reason);
+    if (reason.out && fclose(reason.out) == 0 && written) {
+        return text;
     }
-    if (term != GM_NO_NODE) {
-        write_term(system, term, in_rate && system->kind != GM_RATES, out);
-    }
-    if (finding->holds) {
-        fprintf(out, "%s%s", rows[fact].yes, finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
-    } else {
-        fprintf(out, "%s%s%s", finding->why ? finding->why : rows[fact].no,
-                in_rate ? ", in the rate of " : "",
-                in_rate ? system->variables[finding->component].name : "");
-    }
-    if (!finding->holds && fact == GM_FACT_SMOOTH) {
-        fputs(jumps(system->graph.nodes[term].operation) ? ": it jumps" : ": its derivative jumps", out);
-        good = write_switches(system, term, out);
-    }
-    good = fclose(out) == 0 && good;
-    if (!good) {
-        free(reason);
-    }
-    return good ? reason : NULL;
+    free(text);
+    return NULL;
 }

@@ -6,15 +6,145 @@
    At as many random points as there are candidates, and thirty more, these are linear equations for c. They are solved
    modulo a prime, so that there is no rounding: the rank is exact. A part of a formula that is not a polynomial, such as
    1/r, is one more variable, whose rate is derived. A. Goriely, Integrability and Nonintegrability of Dynamical Systems
-   (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. */
+   (2001), 2.5; J. T. Schwartz, J. ACM 27 (1980) 701, for the random points. Symmetries are found so, too. */
 #include "core/model/invariants.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/model/elimination.h"
 #include "core/model/equations.h"
+
+/* ---- elimination in the field ---- */
+
+/* Values of some nodes of the system's graph, for its values of parameters, from random point `first` on. */
+static struct gm_random_values random_values_of(const struct gm_user_system *system, struct gm_arena *arena,
+                                                const gm_node_id *nodes, size_t count, uint64_t first)
+{
+    struct gm_random_values values = {.graph = &system->graph,
+                                      .fixed = gm_arena_keep(arena, gm_equations_fixed(system), free),
+                                      .variables = system->variable_count,
+                                      .number = first};
+    gm_arena_need(arena, !system->graph.failed);
+    values.parts =
+        gm_arena_keep(arena, gm_formula_parts_of(&system->graph, nodes, count, &values.count), free);
+    values.values = gm_arena_take(arena, system->graph.count, sizeof *values.values);
+    return values;
+}
+
+/* Rows in echelon form: rows[c] begins with a 1 in column c; NULL: no row begins there. */
+struct echelon {
+    struct gm_arena *arena;
+    size_t columns;
+    gm_residue **rows;
+    gm_residue *rest; /* [columns], of the last row that was reduced */
+};
+
+static struct echelon echelon_open(struct gm_arena *arena, size_t columns)
+{
+    return (struct echelon){arena, columns, gm_arena_take(arena, columns + 1, sizeof(gm_residue *)),
+                            gm_arena_take(arena, columns + 1, sizeof(gm_residue))};
+}
+
+enum { TOGETHER = 8 }; /* products that are added with one reduction modulo the prime */
+
+struct multiples {
+    gm_residue factors[TOGETHER]; /* 0: none */
+    const gm_residue *rows[TOGETHER];
+};
+
+static inline gm_residue with_multiples(const struct multiples *multiples, gm_residue entry, size_t column)
+{
+    gm_wide sum = entry;
+    for (size_t k = 0; k < TOGETHER; k++) {
+        sum += (gm_wide)multiples->factors[k] * multiples->rows[k][column];
+    }
+    return gm_residue_folded(sum);
+}
+
+/* Subtracts multiples of the rows from a copy. Returns the column in which the rest begins; `columns`: the row is a
+   combination of the others. */
+static size_t echelon_reduce(const struct echelon *echelon, const gm_residue *given)
+{
+    struct multiples multiples;
+    gm_residue *row = memcpy(echelon->rest, given, echelon->columns * sizeof *row);
+    size_t c = 0;
+    for (bool stopped = false; !stopped;) { /* rows wait for others */
+        size_t count = 0;
+        for (size_t k = 0; k < TOGETHER; k++) {
+            multiples.factors[k] = 0;
+            multiples.rows[k] = row;
+        }
+        for (; count < TOGETHER && !stopped; c += !stopped) {
+            stopped = c == echelon->columns;
+            if (!stopped) {
+                row[c] = count ? with_multiples(&multiples, row[c], c) : row[c];
+                stopped = row[c] && !echelon->rows[c];
+            }
+            if (!stopped && row[c]) {
+                multiples.factors[count] = gm_residue_minus(row[c]);
+                multiples.rows[count++] = echelon->rows[c];
+                row[c] = 0;
+            }
+        }
+        for (size_t i = c + stopped; i < echelon->columns && count; i++) {
+            row[i] = with_multiples(&multiples, row[i], i);
+        }
+    }
+    return c;
+}
+
+/* Reduces a row, and adds the rest. Returns false if nothing is left. */
+static bool echelon_add(struct echelon *echelon, const gm_residue *row)
+{
+    const size_t c = echelon_reduce(echelon, row);
+    if (c == echelon->columns) {
+        return false;
+    }
+    gm_residue *rest = gm_arena_take(echelon->arena, echelon->columns, sizeof *rest);
+    const gm_residue factor = gm_residue_inverse(echelon->rest[c]);
+    for (size_t i = c; i < echelon->columns; i++) {
+        rest[i] = gm_residue_times(factor, echelon->rest[i]);
+    }
+    echelon->rows[c] = rest;
+    return true;
+}
+
+/* A vector that all rows send to 0; no other one of its basis has an entry at `last`. */
+struct null_vector {
+    gm_residue *entries; /* [columns]; entry `last` is 1, later ones are 0 */
+    size_t last, terms;  /* terms: entries that are not 0 */
+};
+/* A basis of the null space, [*count], by rising `last`. */
+static struct null_vector *echelon_null_space(const struct echelon *echelon, size_t *count)
+{
+    struct null_vector *basis = gm_arena_take(echelon->arena, echelon->columns + 1, sizeof *basis);
+    *count = 0;
+    for (size_t last = 0; last < echelon->columns; last++) {
+        if (echelon->rows[last]) {
+            continue;
+        }
+        gm_residue *entries = gm_arena_take(echelon->arena, echelon->columns, sizeof *entries);
+        size_t terms = 1;
+        entries[last] = 1;
+        for (size_t c = last; c-- > 0;) {
+            gm_residue sum = 0;
+            for (size_t i = c + 1; i <= last && echelon->rows[c];) {
+                gm_wide part = sum;
+                for (const size_t end = i + TOGETHER; i < end && i <= last; i++) {
+                    part += (gm_wide)echelon->rows[c][i] * entries[i];
+                }
+                sum = gm_residue_folded(part);
+            }
+            entries[c] = gm_residue_minus(sum);
+            terms += sum != 0;
+        }
+        basis[(*count)++] = (struct null_vector){entries, last, terms};
+    }
+    return basis;
+}
+
+/* ---- invariants ---- */
 
 enum { SPARE_POINTS = 30 };
 static const uint64_t FRESH = UINT64_C(1) << 40; /* the first point of a proof */
@@ -33,9 +163,9 @@ struct named {
 
 struct generator {
     size_t degree;
-    const gm_residue *values;              /* [samples] */
-    const struct named *named;             /* or */
-    const struct gm_null_vector *combined; /* of kept candidates */
+    const gm_residue *values;           /* [samples] */
+    const struct named *named;          /* or */
+    const struct null_vector *combined; /* of kept candidates */
 };
 
 struct search {
@@ -47,7 +177,7 @@ struct search {
     struct candidate *candidates;
     size_t count, points;
     gm_residue **values, **slope_values; /* [points][count] */
-    struct gm_null_vector *basis;        /* of all invariants, by rising degree; of candidates but for 1 */
+    struct null_vector *basis;           /* of all invariants, by rising degree; of candidates but for 1 */
     size_t basis_count, samples;         /* points at which invariants differ */
     struct named *named;
     size_t named_count;
@@ -200,7 +330,7 @@ static bool take_values(struct search *search)
         nodes[2 * variables + i] = search->named[i].node;
         search->named[i].values = gm_arena_take(arena, search->points, sizeof(gm_residue));
     }
-    struct gm_random_values random = gm_random_values_of(search->system, search->arena, nodes, node_count, 0);
+    struct gm_random_values random = random_values_of(search->system, search->arena, nodes, node_count, 0);
     search->values = gm_arena_take(arena, search->points, sizeof *search->values);
     search->slope_values = gm_arena_take(arena, search->points, sizeof *search->slope_values);
     for (size_t p = 0; p < search->points; p++) {
@@ -230,21 +360,21 @@ static bool take_values(struct search *search)
 /* Solves the equations for the coefficients. */
 static void solve(struct search *search)
 {
-    struct gm_echelon equations = gm_echelon_open(search->arena, search->count - 1);
+    struct echelon equations = echelon_open(search->arena, search->count - 1);
     for (size_t p = 0; p < search->points; p++) {
-        gm_echelon_add(&equations, search->slope_values[p] + 1);
+        echelon_add(&equations, search->slope_values[p] + 1);
     }
-    search->basis = gm_echelon_null_space(&equations, &search->basis_count);
+    search->basis = echelon_null_space(&equations, &search->basis_count);
     search->samples = search->basis_count + 1 + SPARE_POINTS;
 }
 
-static size_t degree_of(const struct search *search, const struct gm_null_vector *vector)
+static size_t degree_of(const struct search *search, const struct null_vector *vector)
 {
     return search->candidates[1 + vector->last].degree;
 }
 
 /* The values of an invariant at the samples. */
-static gm_residue *values_of(const struct search *search, const struct gm_null_vector *vector)
+static gm_residue *values_of(const struct search *search, const struct null_vector *vector)
 {
     gm_residue *values = gm_arena_take(search->arena, search->samples, sizeof *values);
     for (size_t p = 0; p < search->samples; p++) {
@@ -257,26 +387,25 @@ static gm_residue *values_of(const struct search *search, const struct gm_null_v
     return values;
 }
 
-/* Adds a copy of a row; `scratch` has room for one. */
-static bool add_copy(struct gm_echelon *echelon, const gm_residue *row, gm_residue *scratch)
+/* The values of 1 at the samples. */
+static const gm_residue *ones_of(const struct search *search)
 {
-    memcpy(scratch, row, echelon->columns * sizeof *scratch);
-    return gm_echelon_add(echelon, scratch);
+    gm_residue *ones = gm_arena_take(search->arena, search->samples, sizeof *ones);
+    for (size_t p = 0; p < search->samples; p++) {
+        ones[p] = 1;
+    }
+    return ones;
 }
 
 /* Takes out invariants that as functions are combinations of earlier ones. They come from candidates that are such
    combinations, r^2 = x^2 + y^2: an invariant whose last candidate is one is of earlier candidates, too. */
 static void keep_independent(struct search *search)
 {
-    struct gm_echelon functions = gm_echelon_open(search->arena, search->samples);
-    gm_residue *scratch = gm_arena_take(search->arena, search->samples, sizeof *scratch);
+    struct echelon functions = echelon_open(search->arena, search->samples);
     size_t kept = 0;
-    for (size_t p = 0; p < search->samples; p++) {
-        scratch[p] = 1;
-    }
-    gm_echelon_add(&functions, scratch);
+    echelon_add(&functions, ones_of(search));
     for (size_t i = 0; i < search->basis_count; i++) {
-        if (gm_echelon_add(&functions, values_of(search, &search->basis[i]))) {
+        if (echelon_add(&functions, values_of(search, &search->basis[i]))) {
             search->basis[kept++] = search->basis[i];
         }
     }
@@ -285,8 +414,8 @@ static void keep_independent(struct search *search)
 }
 
 /* Adds all products of a degree of generators from number `first` on, times products[degree]. */
-static void add_products(const struct search *search, struct gm_echelon *functions, size_t first,
-                         size_t degree, gm_residue **products)
+static void add_products(const struct search *search, struct echelon *functions, size_t first, size_t degree,
+                         gm_residue **products)
 {
     for (size_t g = first; g < search->generator_count; g++) {
         const struct generator *generator = &search->generators[g];
@@ -300,14 +429,14 @@ static void add_products(const struct search *search, struct gm_echelon *functio
         if (rest > 0) {
             add_products(search, functions, g, rest, products);
         } else {
-            gm_echelon_add(functions, products[0]);
+            echelon_add(functions, products[0]);
         }
     }
 }
 
 static int by_terms(const void *a, const void *b)
 {
-    const struct gm_null_vector *x = a, *y = b;
+    const struct null_vector *x = a, *y = b;
     return x->terms != y->terms ? (x->terms > y->terms) - (x->terms < y->terms)
                                 : (x->last > y->last) - (x->last < y->last);
 }
@@ -317,34 +446,28 @@ static int by_terms(const void *a, const void *b)
 static void find_generators(struct search *search)
 {
     struct gm_arena *arena = search->arena;
-    struct gm_echelon all = gm_echelon_open(arena, search->samples), /* invariants up to a degree */
-        reached = all;                                               /* polynomials in generators */
-    reached.rows = gm_arena_take(arena, search->samples + 1, sizeof *reached.rows);
-    gm_residue *products[GM_LARGEST_DEGREE + 1],
-        *scratch = gm_arena_take(arena, search->samples, sizeof *scratch),
-        *ones = gm_arena_take(arena, search->samples, sizeof *ones);
+    struct echelon all = echelon_open(arena, search->samples), /* invariants up to a degree */
+        reached = echelon_open(arena, search->samples);        /* polynomials in generators */
+    gm_residue *products[GM_LARGEST_DEGREE + 1];
+    const gm_residue *ones = ones_of(search);
     for (size_t d = 0; d <= search->degree; d++) {
         products[d] = gm_arena_take(arena, search->samples, sizeof *products[d]);
     }
-    for (size_t p = 0; p < search->samples; p++) {
-        ones[p] = 1;
-    }
-    add_copy(&all, ones, scratch);
-    add_copy(&reached, ones, scratch);
+    echelon_add(&all, ones);
+    echelon_add(&reached, ones);
     bool *used = gm_arena_take(arena, search->named_count + 1, sizeof *used);
     search->generators = gm_arena_take(arena, search->basis_count + 1, sizeof *search->generators);
     for (size_t degree = 1, first = 0, end = 0; degree <= search->degree; degree++, first = end) {
         for (; end < search->basis_count && degree_of(search, &search->basis[end]) == degree; end++) {
-            add_copy(&all, values_of(search, &search->basis[end]), scratch);
+            echelon_add(&all, values_of(search, &search->basis[end]));
         }
         memcpy(products[degree], ones, search->samples * sizeof *ones);
         add_products(search, &reached, 0, degree, products);
         for (size_t i = 0; i < search->named_count; i++) {
             const gm_residue *values = search->named[i].values;
-            memcpy(scratch, values, search->samples * sizeof *scratch);
-            if (!used[i] && gm_echelon_reduce(&all, scratch) == search->samples) {
+            if (!used[i] && echelon_reduce(&all, values) == search->samples) {
                 used[i] = true;
-                if (add_copy(&reached, values, scratch)) {
+                if (echelon_add(&reached, values)) {
                     search->generators[search->generator_count++] =
                         (struct generator){.degree = degree, .values = values, .named = &search->named[i]};
                 }
@@ -353,7 +476,7 @@ static void find_generators(struct search *search)
         qsort(search->basis + first, end - first, sizeof *search->basis, by_terms);
         for (size_t i = first; i < end; i++) {
             const gm_residue *values = values_of(search, &search->basis[i]);
-            if (add_copy(&reached, values, scratch)) {
+            if (echelon_add(&reached, values)) {
                 search->generators[search->generator_count++] =
                     (struct generator){.degree = degree, .values = values, .combined = &search->basis[i]};
             }
@@ -362,7 +485,7 @@ static void find_generators(struct search *search)
 }
 
 /* A combination of candidates as a formula; GM_NO_NODE if its coefficients are not short fractions. */
-static gm_node_id formula_of(const struct search *search, const struct gm_null_vector *vector)
+static gm_node_id formula_of(const struct search *search, const struct null_vector *vector)
 {
     struct gm_formula *graph = &search->system->graph;
     const size_t count = search->count - 1;
@@ -393,9 +516,8 @@ static gm_node_id formula_of(const struct search *search, const struct gm_null_v
 static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t count)
 {
     const size_t n = search->n;
-    struct gm_random_values random =
-        gm_random_values_of(search->system, search->arena, gradients, count * n, 0);
-    struct gm_echelon rows = gm_echelon_open(search->arena, n);
+    struct gm_random_values random = random_values_of(search->system, search->arena, gradients, count * n, 0);
+    struct echelon rows = echelon_open(search->arena, n);
     gm_residue *row = gm_arena_take(search->arena, n, sizeof *row);
     size_t rank = 0;
     const gm_residue *at = gm_random_values_next(&random);
@@ -403,7 +525,7 @@ static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t
         for (size_t i = 0; i < n; i++) {
             row[i] = at[gradients[g * n + i]];
         }
-        rank += gm_echelon_add(&rows, row);
+        rank += echelon_add(&rows, row);
     }
     return rank;
 }
@@ -411,7 +533,7 @@ static size_t rank_of(struct search *search, const gm_node_id *gradients, size_t
 /* True if a node is 0 at fresh points of the field; and in doubles, where coefficients are what is printed. */
 static bool is_zero(struct search *search, gm_node_id node)
 {
-    struct gm_random_values random = gm_random_values_of(search->system, search->arena, &node, 1, FRESH);
+    struct gm_random_values random = random_values_of(search->system, search->arena, &node, 1, FRESH);
     bool zero = true;
     for (int p = 0; p < SPARE_POINTS && zero; p++) {
         const gm_residue *at = gm_random_values_next(&random);
@@ -529,4 +651,89 @@ const char *gm_found_word(const struct gm_user_system *system)
         taken |= name && name[0] == 'I' && (name[1] == '[' || (name[1] >= '0' && name[1] <= '9'));
     }
     return taken ? "found" : "I";
+}
+
+/* ---- symmetries ---- */
+
+/* The field a + A y is a symmetry of y' = f(y) if with some number c
+
+       f'(y) (a + A y) - A f(y) = c f(y)   for all y.
+
+   At random points these are linear equations for a, A and c. P. J. Olver, Applications of Lie Groups to Differential
+   Equations (1993), 2.3. Here is the one of component k: the coefficients of a [n], A [n][n] and c. */
+static void set_equation(gm_residue *row, size_t n, size_t k, const gm_residue *const point[3])
+{
+    const gm_residue *y = point[0], *f = point[1], *slope = point[2] + k * n; /* of f[k] */
+    for (size_t i = 0; i < n; i++) {
+        row[i] = slope[i];
+        for (size_t j = 0; j < n; j++) {
+            row[n + i * n + j] =
+                gm_residue_plus(gm_residue_times(slope[i], y[j]), i == k ? gm_residue_minus(f[j]) : 0);
+        }
+    }
+    row[n + n * n] = gm_residue_minus(f[k]);
+}
+
+/* a + A y */
+static gm_node_id *write_field(struct gm_user_system *system, struct gm_arena *arena, const double *entries)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n;
+    gm_node_id *field = gm_arena_take(arena, n, sizeof *field);
+    for (size_t i = 0; i < n; i++) {
+        field[i] = gm_formula_constant(graph, entries[i]);
+        for (size_t j = 0; j < n; j++) {
+            const gm_node_id factor = gm_formula_constant(graph, entries[n + i * n + j]);
+            field[i] = gm_sum(graph, field[i], gm_product(graph, factor, gm_formula_variable(graph, j)));
+        }
+    }
+    gm_arena_need(arena, !graph->failed);
+    return field;
+}
+
+size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
+                          struct gm_symmetry **symmetries, size_t *unwritten)
+{
+    *unwritten = 0;
+    const size_t n = system->n, unknowns = n + n * n + 1, points = 6 * n + 20, nodes = 2 * n + n * n;
+    if (n > GM_MOST_WITH_SYMMETRIES) {
+        return 0;
+    }
+    gm_node_id *wanted = gm_arena_take(arena, nodes, sizeof *wanted); /* y, f, f' */
+    for (size_t i = 0; i < n; i++) {
+        wanted[i] = gm_formula_variable(&system->graph, i);
+        wanted[n + i] = system->rates[i];
+        gm_gradient(&system->graph, system->rates[i], NULL, n, wanted + 2 * n + i * n);
+    }
+    struct gm_random_values random = random_values_of(system, arena, wanted, nodes, 0);
+    struct echelon equations = echelon_open(arena, unknowns);
+    gm_residue *row = gm_arena_take(arena, unknowns + nodes, sizeof *row), *values = row + unknowns;
+    const gm_residue *at = values;
+    for (size_t p = 0; p < points && at; p++) {
+        at = gm_random_values_next(&random);
+        for (size_t i = 0; i < nodes && at; i++) {
+            values[i] = at[wanted[i]];
+        }
+        for (size_t k = 0; k < n && at; k++) {
+            set_equation(row, n, k, (const gm_residue *const[]){values, values + n, values + 2 * n});
+            echelon_add(&equations, row);
+        }
+    }
+    size_t count = 0, found = 0;
+    const struct null_vector *basis = echelon_null_space(&equations, &count);
+    double *whole = gm_arena_take(arena, unknowns, sizeof *whole);
+    *symmetries = gm_arena_take(arena, count + 1, sizeof **symmetries);
+    for (size_t i = 0; i < count && at; i++) {
+        const bool rest = basis[i].terms == 1 && basis[i].last == unknowns - 1; /* c alone, as f = 0 */
+        if (rest) {
+            continue;
+        }
+        if (!gm_residues_whole(basis[i].entries, unknowns, whole)) {
+            ++*unwritten;
+        } else {
+            (*symmetries)[found++] =
+                (struct gm_symmetry){write_field(system, arena, whole), whole[unknowns - 1]};
+        }
+    }
+    return found;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Invariants that the equations of a system have, found and proved. */
+/* Invariants, and affine symmetries, that the equations of a system have, found and proved. */
 #ifndef GM_CORE_MODEL_INVARIANTS_H
 #define GM_CORE_MODEL_INVARIANTS_H
 
@@ -32,5 +32,20 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
 
 /* The word before the numbers of those without a name: "I", or "found" where the system has a name such as I1. */
 const char *gm_found_word(const struct gm_user_system *system);
+
+enum { GM_MOST_WITH_SYMMETRIES = 20 /* components */ };
+
+/* A field a + A y whose flow sends motions into motions, which become faster for c > 0. */
+struct gm_symmetry {
+    gm_node_id *field; /* [n], with whole coefficients, in the system's graph */
+    double scaling;    /* c */
+};
+
+/* Finds a basis of the affine symmetries for the values of parameters, of a system of which gm_invariants_find lacks
+   nothing. Returns their number, without the *unwritten ones, whose coefficients are not short fractions; 0 for too many
+   components.
+   Inside a body of the arena, which is left when out of memory. The graph grows. */
+size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
+                          struct gm_symmetry **symmetries, size_t *unwritten);
 
 #endif

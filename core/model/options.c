@@ -2,10 +2,8 @@
 /* The options of a line, and texts with values in them. */
 #include "core/model/scope.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/expression/nearest.h"
@@ -32,8 +30,8 @@ static const char *row_word(size_t i, const void *lines)
 static size_t find_row(uint64_t lines, const char *word, size_t letters)
 {
     size_t row = 0;
-    while (row < GM_OPTIONS && (!(rows[row].lines & lines) || strlen(rows[row].word) != letters ||
-                                memcmp(rows[row].word, word, letters) != 0)) {
+    while (row < GM_OPTIONS && (!(rows[row].lines & lines) ||
+                                !gm_text_same(rows[row].word, strlen(rows[row].word), word, letters))) {
         row++;
     }
     return row;
@@ -41,7 +39,7 @@ static size_t find_row(uint64_t lines, const char *word, size_t letters)
 
 void gm_item_add(struct gm_reading *reading, struct gm_system_item *item, gm_node_id node)
 {
-    gm_reading_reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes);
+    item->nodes = gm_arena_grown(reading->system->arena, item->nodes, item->count, sizeof *item->nodes);
     item->nodes[item->count++] = node;
 }
 
@@ -56,7 +54,8 @@ void gm_item_add_formulas(struct gm_reading *reading, struct gm_system_item *ite
 static struct gm_system_option *add_option(struct gm_reading *reading, struct gm_system_item *item,
                                            enum gm_system_option_word word, size_t place)
 {
-    gm_reading_reserve(reading, (void **)&item->options, item->option_count, sizeof *item->options);
+    item->options =
+        gm_arena_grown(reading->system->arena, item->options, item->option_count, sizeof *item->options);
     struct gm_system_option *option = &item->options[item->option_count++];
     *option = (struct gm_system_option){.word = word, .place = place, .node = GM_NO_NODE};
     return option;
@@ -64,7 +63,8 @@ static struct gm_system_option *add_option(struct gm_reading *reading, struct gm
 
 static void put_number(struct gm_reading *reading, struct gm_system_option *option, double number)
 {
-    gm_reading_reserve(reading, (void **)&option->numbers, option->count, sizeof *option->numbers);
+    option->numbers =
+        gm_arena_grown(reading->system->arena, option->numbers, option->count, sizeof *option->numbers);
     option->numbers[option->count++] = number;
 }
 

@@ -3,8 +3,6 @@
 #include "core/model/scope.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -17,7 +15,7 @@ struct gm_system_item *gm_reading_item(struct gm_reading *reading, const struct 
                                        struct gm_span name)
 {
     struct gm_user_system *system = reading->system;
-    gm_reading_reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items);
+    system->items = gm_arena_grown(system->arena, system->items, system->item_count, sizeof *system->items);
     struct gm_system_item *item = &system->items[system->item_count++];
     *item = (struct gm_system_item){.word = (enum gm_system_word)line->word,
                                     .place = line->value.begin,
@@ -112,7 +110,7 @@ static void read_assignments(struct gm_reading *reading, const struct gm_read_li
             assignment.range = gm_reading_range(reading, all);
         }
     }
-    reading->exact = ranged;
+    reading->context.exact = ranged;
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
         const struct gm_target target = gm_reading_assignment(reading, piece);
         if (line->word == GM_WORD_START && reading->system->kind == GM_FIELD &&
@@ -124,7 +122,7 @@ static void read_assignments(struct gm_reading *reading, const struct gm_read_li
         }
         gm_reading_elements(reading, &target, assign, &assignment);
     }
-    reading->exact = false;
+    reading->context.exact = false;
 }
 
 /* Takes a name, or an element of a list, off the front of `rest`. */
@@ -219,7 +217,7 @@ static void read_named(struct gm_reading *reading, const struct gm_read_line *li
     struct gm_span rest = line->value;
     const struct gm_target target = gm_reading_assignment(reading, take_piece(reading, &rest));
     const bool indexed = target.index.begin < target.index.end;
-    gm_system_refuse_if(system, indexed && reading->counter.begin == reading->counter.end, target.index.begin,
+    gm_system_refuse_if(system, indexed && reading->context.repeated.length == 0, target.index.begin,
                         "this name has no index");
     struct gm_system_item *item = gm_reading_item(reading, line, target.name);
     if (indexed) {
@@ -360,6 +358,17 @@ static void replace(struct gm_reading *reading, struct gm_entry *entry, const st
     item->nodes[1 + entry->number] = node;
 }
 
+/* The first event of that name, or NULL. */
+static const struct gm_system_item *event_named(const struct gm_user_system *system, const char *name)
+{
+    const struct gm_system_item *event;
+    size_t i = 0;
+    while ((event = gm_system_item_of(system, GM_WORD_EVENT, i)) && strcmp(event->name, name) != 0) {
+        i++;
+    }
+    return event;
+}
+
 /* event: [name;] g = h, conditions; x = F, y = G   or   ...; stop */
 static void read_event(struct gm_reading *reading, const struct gm_read_line *line)
 {
@@ -375,11 +384,8 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
         piece = take_piece(reading, &rest);
     }
     struct gm_system_item *item = gm_reading_item(reading, line, name);
-    for (size_t i = 0; i + 1 < system->item_count && item->name[0]; i++) {
-        gm_system_refuse_if(
-            system, system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, item->name) == 0,
-            name.begin, "the event %.60s is given twice", item->name);
-    }
+    gm_system_refuse_if(system, item->name[0] && event_named(system, item->name) != item, name.begin,
+                        "the event %.60s is given twice", item->name);
     gm_span_take(text, &piece, ",", &surface);
     add_surface(reading, item, surface);
     rest = gm_span_trimmed(text, rest);
@@ -459,18 +465,14 @@ static void read_view(struct gm_reading *reading, const struct gm_read_line *lin
 {
     const struct gm_user_system *system = reading->system;
     struct gm_system_item *item = gm_reading_item(reading, line, nameless);
-    struct gm_span rest = line->value, piece;
-    const size_t wanted = line->word == GM_WORD_ROD ? 2 : 1;
-    size_t ends = 0, dimensions = 0;
-    bool equal = true;
-    while (ends < wanted && gm_span_take(reading->text, &rest, ";", &piece)) {
-        const size_t before = item->count;
-        gm_item_add_formulas(reading, item, piece);
-        equal = equal && (ends == 0 || item->count - before == dimensions);
-        dimensions = item->count - before;
-        ends++;
+    struct gm_span rest = line->value;
+    const size_t ends = line->word == GM_WORD_ROD ? 2 : 1;
+    gm_item_add_formulas(reading, item, take_piece(reading, &rest));
+    const size_t dimensions = item->count;
+    if (ends == 2) {
+        gm_item_add_formulas(reading, item, take_piece(reading, &rest));
     }
-    gm_system_refuse_if(system, !equal || dimensions < 2 || dimensions > 3 || ends < wanted,
+    gm_system_refuse_if(system, item->count != ends * dimensions || dimensions < 2 || dimensions > 3,
                         line->value.begin,
                         line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
                                                   : "a body has two or three coordinates: x, y");
@@ -508,13 +510,10 @@ static void read_surface(struct gm_reading *reading, const struct gm_read_line *
 static void check_section(const struct gm_user_system *system)
 {
     const struct gm_system_item *section = gm_system_item_of(system, GM_WORD_SECTION, 0);
-    bool known = !section || !section->at_event;
-    for (size_t i = 0; i < system->item_count && !known; i++) {
-        known = system->items[i].word == GM_WORD_EVENT && strcmp(system->items[i].name, section->name) == 0;
+    if (section && section->at_event && !event_named(system, section->name)) {
+        gm_system_refuse(system, section->place, "there is no event %.60s: event: %.60s; q = 0; p = -p",
+                         section->name, section->name);
     }
-    gm_system_refuse_if(system, !known, section ? section->place : 0,
-                        "there is no event %.60s: event: %.60s; q = 0; p = -p", known ? "" : section->name,
-                        known ? "" : section->name);
 }
 
 /* The keys of a camera are reserved in space, and never a choice; surfaces need space. */
@@ -938,11 +937,12 @@ static void read_counted(struct gm_reading *reading, const struct gm_read_line *
                         reading->text + counter.begin);
     gm_reading_bounds(reading, bounds, "values of an index", &low, &high);
     const struct gm_read_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
-    reading->counter = counter;
-    for (reading->counted = low; reading->counted <= high; reading->counted++) {
+    struct gm_index *repeated = &reading->context.repeated;
+    *repeated = (struct gm_index){reading->text + counter.begin, name, low};
+    for (; repeated->value <= high; repeated->value++) {
         readers[line->word](reading, &one);
     }
-    reading->counter = nameless;
+    repeated->length = 0;
 }
 
 /* Gives the names of lets to nodes without a name. */
@@ -1127,44 +1127,39 @@ static void read_system(struct gm_arena *arena, void *data)
     gm_reading_read(data);
 }
 
-/* Reads the text once; *degenerate is set if it has to be read again so. */
-static bool read_once(struct gm_user_system *system, const char *text, size_t length,
-                      const struct gm_system_value *values, size_t count, bool *degenerate)
+/* Reads the text once; reading->degenerate is set if it has to be read again so. */
+static bool read_once(struct gm_user_system *system, struct gm_reading *reading, struct gm_fault *fault)
 {
-    struct gm_fault *fault = system->fault;
-    struct gm_reading reading = {.system = system,
-                                 .text = text,
-                                 .length = length,
-                                 .values = values,
-                                 .value_count = count,
-                                 .degenerate = *degenerate,
-                                 .scratch = gm_arena_open()};
-    for (size_t i = 0; i < count; i++) {
-        reading.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
-    }
     *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault, .drift = GM_NO_NODE};
     gm_formula_open(&system->graph);
-    const bool good = reading.scratch && gm_arena_run(system->arena, read_system, &reading);
-    gm_arena_close(reading.scratch);
-    if (!good) { /* all else is closed */
+    reading->system = system;
+    reading->scratch = gm_arena_open();
+    const bool whole = reading->scratch && gm_arena_run(system->arena, read_system, reading);
+    gm_arena_close(reading->scratch);
+    if (!whole) { /* all else is closed */
         *system = (struct gm_user_system){
             .arena = system->arena, .graph = system->graph, .choices = system->choices};
     }
-    *degenerate = reading.degenerate;
-    return good;
+    return whole;
 }
 
 bool gm_system_read(struct gm_user_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
-    bool degenerate = false;
+    struct gm_reading first = {.text = text, .length = length, .values = values, .value_count = count},
+                      second;
+    for (size_t i = 0; i < count; i++) {
+        first.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
+    }
+    second = first;
+    second.degenerate = true;
     *fault = (struct gm_fault){0};
-    *system = (struct gm_user_system){.fault = fault};
-    const bool good = read_once(system, text, length, values, count, &degenerate);
-    if (good || !degenerate) {
-        return good;
+    if (read_once(system, &first, fault)) {
+        return true;
+    }
+    if (!first.degenerate) {
+        return false;
     }
     gm_system_close(system);
-    system->fault = fault;
-    return read_once(system, text, length, values, count, &degenerate);
+    return read_once(system, &second, fault);
 }

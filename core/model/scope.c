@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 
@@ -46,13 +45,6 @@ static const struct gm_line_words words = {"a system", gm_system_words, GM_WORDS
                                       "a room", gm_system_words, GM_WORDS,
                                       "; geomint list office --source prints a room with its lines", ROOM};
 
-void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size)
-{
-    if ((count & (count - 1)) == 0) {
-        *array = gm_arena_resize(reading->system->arena, *array, count ? 2 * count : 1, size);
-    }
-}
-
 void gm_reading_refuse_second(struct gm_reading *reading, size_t place, const struct gm_entry *first)
 {
     reading->system->fault->earlier = first->place;
@@ -64,19 +56,19 @@ void gm_reading_lines(struct gm_reading *reading)
     struct gm_user_system *system = reading->system;
     const bool room = gm_system_is_room(system);
     reading->words = room ? &words_of_rooms : &words;
-    struct gm_read_lines lines = {.words = reading->words,
+    struct gm_read_lines lines = {.arena = system->arena,
+                                  .fault = system->fault,
+                                  .words = reading->words,
                                   .choices = &system->choices,
                                   .inside = room ? IN_BLOCKS : ~0u,
                                   .text = reading->text,
                                   .span = {0, reading->length}};
-    bool good = gm_choices_read(&system->choices, reading->text, reading->length, system->fault);
-    for (size_t i = 0; good && i < reading->value_count; i++) {
+    gm_choices_read(&lines);
+    for (size_t i = 0; i < reading->value_count; i++) {
         gm_choices_take(&system->choices, reading->values[i].name, reading->values[i].text);
     }
-    if (!good || !gm_lines_read(&lines, system->fault)) {
-        gm_arena_leave(system->arena);
-    }
-    reading->lines = gm_arena_keep(system->arena, lines.list, free);
+    gm_lines_read(&lines);
+    reading->lines = lines.list;
     reading->line_count = lines.count;
 }
 
@@ -101,8 +93,8 @@ static uint32_t *slot_of(const struct gm_reading *reading, const char *name, siz
     for (size_t slot = (size_t)hash & (reading->slots - 1);; slot = (slot + 1) & (reading->slots - 1)) {
         const uint32_t number = reading->table[slot];
         const struct gm_entry *entry = number ? &reading->entries[number - 1] : NULL;
-        if (!entry || (entry->length == length && entry->indexed == indexed && entry->index == index &&
-                       memcmp(entry->name, name, length) == 0)) {
+        if (!entry || (entry->indexed == indexed && entry->index == index &&
+                       gm_text_same(entry->name, entry->length, name, length))) {
             return &reading->table[slot];
         }
     }
@@ -128,7 +120,7 @@ static const struct gm_entry *list_of(const struct gm_reading *reading, const ch
     const struct gm_entry *found = NULL;
     for (size_t i = 0; i < reading->entry_count; i++) {
         const struct gm_entry *entry = &reading->entries[i];
-        if (entry->indexed && entry->length == length && memcmp(entry->name, name, length) == 0) {
+        if (entry->indexed && gm_text_same(entry->name, entry->length, name, length)) {
             *low = found && *low < entry->index ? *low : entry->index;
             *high = found && *high > entry->index ? *high : entry->index;
             found = entry;
@@ -144,25 +136,17 @@ bool gm_reading_reserves(const char *name, size_t length)
         "dt",        "until",        "steps",  "scheme",   "schemes",     "zip",         "overlay", "equal",
         "show",      "members",      "t",      "lane",     "meta",        "compensated", "binding", "tau0",
         "tolerance", "spread",       "scene",  "status",   "evaluations", "solves",      "seconds", "stopped",
-        "shape",     "newmark_beta", "trails", "portrait", "window"};
-    for (size_t i = 0; i < GM_COUNT(reserved); i++) {
-        if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
-            return true;
-        }
-    }
-    return gm_formula_reserves(name, length);
+        "shape",     "newmark_beta", "trails", "portrait", "window",      NULL};
+    return reserved[gm_span_among(name, (struct gm_span){0, length}, reserved)] ||
+           gm_formula_reserves(name, length);
 }
 
 /* True for keys of a ring, unless the reader has added them with their values. */
 static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
 {
-    static const char *const keys[] = {"half_length", "points", "space", "boundary"};
-    for (size_t i = 0; i < GM_COUNT(keys) && gm_system_is_field(reading->system) && !entry->read; i++) {
-        if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
-            return true;
-        }
-    }
-    return false;
+    static const char *const keys[] = {"half_length", "points", "space", "boundary", NULL};
+    return gm_system_is_field(reading->system) && !entry->read &&
+           keys[gm_span_among(entry->name, (struct gm_span){0, entry->length}, keys)];
 }
 
 /* True for the place of a field, unless the reader has added it. */
@@ -172,23 +156,36 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
            entry->name[0] == 'x';
 }
 
-const char *const gm_room_variables[GM_ROOM_VARIABLES] = {
-    "s", "x", "y", "perimeter", "area", "inlet_length", "until"};
+const char *const gm_room_variables[GM_ROOM_VARIABLES + 1] = {
+    "s", "x", "y", "perimeter", "area", "inlet_length", "until", NULL};
 
 /* True for a name that a room reserves: of its variables, and all that systems reserve, except show. */
 static bool is_of_room(const struct gm_entry *entry)
 {
-    size_t i = 0;
-    while (i < GM_ROOM_VARIABLES && (strlen(gm_room_variables[i]) != entry->length ||
-                                     memcmp(gm_room_variables[i], entry->name, entry->length) != 0)) {
-        i++;
-    }
+    const struct gm_span name = {0, entry->length};
     return entry->role != GM_ENTRY_VELOCITY && entry->role != GM_ENTRY_TIME &&
-           (i < GM_ROOM_VARIABLES || (gm_reading_reserves(entry->name, entry->length) &&
-                                      !(entry->length == 4 && memcmp(entry->name, "show", 4) == 0)));
+           (gm_room_variables[gm_span_among(entry->name, name, gm_room_variables)] ||
+            (gm_reading_reserves(entry->name, entry->length) && !gm_span_is(entry->name, name, "show")));
 }
 
-static enum gm_form_operator operator_of(const char *name, size_t length);
+static const struct {
+    const char *name;
+    size_t least, most;
+} form_operators[] = {
+#define GM_FORM_OPERATOR(constant, ...) {__VA_ARGS__},
+#include "core/model/form_operators.def"
+#undef GM_FORM_OPERATOR
+};
+
+/* The operator of that name, or GM_FORM_OPERATORS. */
+static enum gm_form_operator operator_of(const char *name, size_t length)
+{
+    size_t i = 0;
+    while (i < GM_FORM_OPERATORS && !gm_span_is(name, (struct gm_span){0, length}, form_operators[i].name)) {
+        i++;
+    }
+    return (enum gm_form_operator)i;
+}
 
 /* Doubles the capacity of entries and of their table. */
 static void grow(struct gm_reading *reading)
@@ -279,12 +276,25 @@ static enum gm_meaning refuse_index(const struct gm_reading *reading, const stru
                : GM_UNKNOWN;
 }
 
+/* The function of that name, or NULL. */
+static struct gm_definition *definition_of(void *data, const char *name, size_t length)
+{
+    const struct gm_reading *reading = data;
+    for (size_t i = 0; i < reading->definition_count; i++) {
+        const struct gm_span other = reading->definitions[i].name;
+        if (gm_text_same(reading->text + other.begin, other.end - other.begin, name, length)) {
+            return &reading->definitions[i];
+        }
+    }
+    return NULL;
+}
+
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct gm_reading *reading = data;
     struct gm_user_system *system = reading->system;
     const int brief = gm_brief_length(name->length);
-    const bool room = gm_system_is_room(system), fixed = name->fixed || reading->fixed;
+    const bool room = gm_system_is_room(system), fixed = name->fixed || reading->context.fixed;
     struct gm_entry *entry = gm_reading_entry(reading, name->text, name->length, name->indexed, name->index);
     if (!entry) {
         return refuse_index(reading, name, sentence);
@@ -297,7 +307,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
                       entry->name);
     }
     if (entry->role == GM_ENTRY_FUNCTION) {
-        const size_t count = gm_reading_definition(reading, name->text, name->length)->count;
+        const size_t count = definition_of(reading, name->text, name->length)->count;
         return refuse(sentence, "%.*s is a function of %zu argument%s", brief, name->text, count,
                       gm_plural((double)count));
     }
@@ -330,42 +340,6 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     }
     const char *why = reading->withheld ? reading->withheld(reading, *node) : NULL;
     return why ? refuse(sentence, "%s", why) : GM_KNOWN;
-}
-
-struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name, size_t length)
-{
-    for (size_t i = 0; i < reading->definition_count; i++) {
-        const struct gm_span other = reading->definitions[i].name;
-        if (other.end - other.begin == length && memcmp(reading->text + other.begin, name, length) == 0) {
-            return &reading->definitions[i];
-        }
-    }
-    return NULL;
-}
-
-static struct gm_definition *definition_of(void *data, const char *name, size_t length)
-{
-    return gm_reading_definition(data, name, length);
-}
-
-static const struct {
-    const char *name;
-    size_t least, most;
-} form_operators[] = {
-#define GM_FORM_OPERATOR(constant, ...) {__VA_ARGS__},
-#include "core/model/form_operators.def"
-#undef GM_FORM_OPERATOR
-};
-
-/* The operator of that name, or GM_FORM_OPERATORS. */
-static enum gm_form_operator operator_of(const char *name, size_t length)
-{
-    size_t i = 0;
-    while (i < GM_FORM_OPERATORS &&
-           (strlen(form_operators[i].name) != length || memcmp(form_operators[i].name, name, length) != 0)) {
-        i++;
-    }
-    return (enum gm_form_operator)i;
 }
 
 static bool is_operator(const void *data, const struct gm_name *name)
@@ -419,13 +393,13 @@ static bool is_part(void *data, const struct gm_name *called, const struct gm_na
         return false;
     }
     size_t i = 0;
-    while (i < system->boundary_count && (strlen(system->boundaries[i]) != word->length ||
-                                          memcmp(system->boundaries[i], word->text, word->length) != 0)) {
+    while (i < system->boundary_count &&
+           !gm_span_is(word->text, (struct gm_span){0, word->length}, system->boundaries[i])) {
         i++;
     }
     if (i == system->boundary_count) {
         name = gm_arena_print(system->arena, "%.*s", (int)word->length, word->text);
-        gm_reading_reserve(data, (void **)&system->boundaries, i, sizeof *system->boundaries);
+        system->boundaries = gm_arena_grown(system->arena, system->boundaries, i, sizeof *system->boundaries);
         system->boundaries[system->boundary_count++] = name;
     }
     *node = gm_formula_constant(&system->graph, (double)i);
@@ -434,7 +408,7 @@ static bool is_part(void *data, const struct gm_name *called, const struct gm_na
 
 static struct gm_scope scope_of(struct gm_reading *reading)
 {
-    const bool form = gm_system_is_form(reading->system), calls = form && !reading->fixed;
+    const bool form = gm_system_is_form(reading->system), calls = form && !reading->context.fixed;
     return (struct gm_scope){.find = find,
                              .known = known,
                              .definition = definition_of,
@@ -444,7 +418,7 @@ static struct gm_scope scope_of(struct gm_reading *reading)
                              .data = reading,
                              .lines = true,
                              .initial = !form && !gm_system_is_room(reading->system),
-                             .exact = reading->exact};
+                             .exact = reading->context.exact};
 }
 
 /* Refuses the text after an attempt that failed, unless another name must be read first. */
@@ -455,18 +429,14 @@ static void need_postponed(const struct gm_reading *reading, const struct gm_fau
 }
 
 /* Makes one attempt; GM_NO_NODE if another name must be read first. */
-static gm_node_id attempt(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                          long element, bool is_condition)
+static gm_node_id attempt(struct gm_reading *reading, struct gm_span span, bool is_condition)
 {
     struct gm_scope scope = scope_of(reading);
-    const struct gm_span *const indices[] = {bound, &reading->counter};
-    const long values[] = {element, reading->counted};
+    const struct gm_index *const indices[] = {&reading->context.element, &reading->context.repeated};
     scope.is_condition = is_condition;
     for (int i = 0; i < 2; i++) {
-        const struct gm_span *name = indices[i];
-        if (name && name->begin < name->end) {
-            scope.indices[scope.index_count++] =
-                (struct gm_index){reading->text + name->begin, name->end - name->begin, values[i]};
+        if (indices[i]->length > 0) {
+            scope.indices[scope.index_count++] = *indices[i];
         }
     }
     struct gm_fault fault;
@@ -512,72 +482,62 @@ void gm_reading_define(struct gm_reading *reading, uint32_t number)
 {
     uint32_t *stack = NULL;
     size_t depth = 0;
-    gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
+    stack = gm_arena_grown(reading->system->arena, stack, depth, sizeof *stack);
     stack[depth++] = number;
     while (depth > 0) {
         struct gm_entry *entry = &reading->entries[stack[depth - 1]];
-        const bool was_fixed = reading->fixed, was_exact = reading->exact;
-        const struct gm_span counter = reading->counter;
-        reading->fixed = entry->role == GM_ENTRY_PARAMETER;
-        reading->exact = entry->role == GM_ENTRY_OBSERVED && gm_reading_has_solution(reading);
-        reading->counter = (struct gm_span){0, 0};
-        const gm_node_id node = attempt(reading, entry->value, &entry->bound, entry->element, false);
-        reading->fixed = was_fixed;
-        reading->exact = was_exact;
-        reading->counter = counter;
+        const struct gm_reading_context outer = reading->context;
+        reading->context = (struct gm_reading_context){.fixed = entry->role == GM_ENTRY_PARAMETER,
+                                                       .exact = entry->role == GM_ENTRY_OBSERVED &&
+                                                                gm_reading_has_solution(reading)};
+        const gm_node_id node = attempt(reading, entry->value, false);
+        reading->context = outer;
         if (node != GM_NO_NODE) {
             entry->node = node;
             entry->read = true;
             depth--;
         } else {
             refuse_circle(reading, stack, depth);
-            gm_reading_reserve(reading, (void **)&stack, depth, sizeof *stack);
+            stack = gm_arena_grown(reading->system->arena, stack, depth, sizeof *stack);
             stack[depth++] = reading->wanted;
         }
     }
 }
 
 /* Reads a formula or a condition, after all names that it needs. */
-static gm_node_id read_after_names(struct gm_reading *reading, struct gm_span span,
-                                   const struct gm_span *bound, long element, bool is_condition)
+static gm_node_id read_after_names(struct gm_reading *reading, struct gm_span span, bool is_condition)
 {
     gm_node_id node;
-    while ((node = attempt(reading, span, bound, element, is_condition)) == GM_NO_NODE) {
+    while ((node = attempt(reading, span, is_condition)) == GM_NO_NODE) {
         gm_reading_define(reading, reading->wanted);
     }
     return node;
 }
 
-gm_node_id gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                            long element)
-{
-    return read_after_names(reading, span, bound, element, false);
-}
-
 gm_node_id gm_reading_formula(struct gm_reading *reading, struct gm_span span)
 {
-    return read_after_names(reading, span, NULL, 0, false);
+    return read_after_names(reading, span, false);
 }
 
 gm_node_id gm_reading_formula_of_exact(struct gm_reading *reading, struct gm_span span)
 {
-    reading->exact = true;
+    reading->context.exact = true;
     const gm_node_id node = gm_reading_formula(reading, span);
-    reading->exact = false;
+    reading->context.exact = false;
     return node;
 }
 
 gm_node_id gm_reading_condition(struct gm_reading *reading, struct gm_span span)
 {
-    return read_after_names(reading, span, NULL, 0, true);
+    return read_after_names(reading, span, true);
 }
 
 double gm_reading_number(struct gm_reading *reading, struct gm_span span)
 {
-    const bool was_fixed = reading->fixed;
-    reading->fixed = true;
+    const bool was_fixed = reading->context.fixed;
+    reading->context.fixed = true;
     const gm_node_id node = gm_reading_formula(reading, span);
-    reading->fixed = was_fixed;
+    reading->context.fixed = was_fixed;
     return reading->system->graph.nodes[node].value;
 }
 
@@ -693,12 +653,6 @@ struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_t
                      near ? "; did you mean " : "", near ? near : "");
 }
 
-static bool is_same(const struct gm_reading *reading, struct gm_span a, struct gm_span b)
-{
-    return a.end - a.begin == b.end - b.begin &&
-           memcmp(reading->text + a.begin, reading->text + b.begin, a.end - a.begin) == 0;
-}
-
 void gm_reading_elements(struct gm_reading *reading, const struct gm_target *target,
                          void (*each)(struct gm_reading *reading, struct gm_entry *entry,
                                       const struct gm_target *target, gm_node_id node, void *data),
@@ -707,9 +661,12 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
     const char *name = reading->text + target->name.begin;
     const size_t length = target->name.end - target->name.begin;
     const struct gm_span index = target->index;
-    const size_t letters = gm_name_length(reading->text + index.begin, index.end - index.begin);
+    const struct gm_index *repeated = &reading->context.repeated;
+    const char *name_of_index = reading->text + index.begin;
+    const size_t letters = gm_name_length(name_of_index, index.end - index.begin);
     const bool all = letters > 0 && index.begin + letters == index.end &&
-                     !is_same(reading, index, reading->counter) && !gm_reading_named(reading, index);
+                     !gm_text_same(name_of_index, letters, repeated->text, repeated->length) &&
+                     !gm_reading_named(reading, index);
     const bool indexed = index.begin < index.end;
     long low = 0, high = 0;
     gm_system_refuse_if(reading->system, all && !list_of(reading, name, length, &low, &high),
@@ -724,7 +681,9 @@ void gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
         }
         entry = entry ? entry : gm_reading_sought(reading, target, i);
         const size_t number = (size_t)(entry - reading->entries);
-        const gm_node_id node = gm_reading_bound(reading, target->value, all ? &index : NULL, i);
+        reading->context.element = (struct gm_index){name_of_index, all ? letters : 0, i};
+        const gm_node_id node = gm_reading_formula(reading, target->value);
+        reading->context.element.length = 0;
         each(reading, &reading->entries[number], target, node, data);
     }
 }

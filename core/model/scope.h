@@ -2,7 +2,6 @@
 #ifndef GM_CORE_MODEL_SCOPE_H
 #define GM_CORE_MODEL_SCOPE_H
 
-#include "core/expression/choices.h"
 #include "core/model/system.h"
 
 /* A system's text while it is read: its lines, the names that they declare, and formulas, in which a name
@@ -31,8 +30,6 @@ struct gm_entry {
     enum gm_entry_role role;
     bool read;            /* parameters and names: `node` is read */
     struct gm_span value; /* formula of a parameter or a name */
-    long element;         /* value of the bound index */
-    struct gm_span bound; /* the bound index; empty: none */
     gm_node_id node;
 };
 
@@ -48,14 +45,16 @@ struct gm_reading {
     size_t entry_count, entry_capacity;
     uint32_t *table; /* open addressing, entry number + 1 */
     size_t slots;
-    uint32_t wanted;        /* entry that must be read first */
-    bool fixed;             /* parameters are constants in formulas */
-    bool structural;        /* the graph depends on values of parameters */
-    bool without_tangents;  /* the motion alone is read */
-    bool degenerate;        /* L is linear in the velocities: the text is read again, without momenta */
-    bool exact;             /* exact(NAME) has a meaning */
-    struct gm_span counter; /* the index of a repeated line, with its value `counted`; empty: none */
-    long counted;
+    uint32_t wanted; /* entry that must be read first */
+    struct gm_reading_context {
+        bool fixed;               /* parameters are constants in formulas */
+        bool exact;               /* exact(NAME) has a meaning */
+        struct gm_index repeated; /* the index of a repeated line; without letters: none */
+        struct gm_index element;  /* the index of all elements of an assigned list; without letters: none */
+    } context;
+    bool structural;       /* the graph depends on values of parameters */
+    bool without_tangents; /* the motion alone is read */
+    bool degenerate;       /* L is linear in the velocities: the text is read again, without momenta */
     size_t component_count, velocity_count, parameter_count;
     struct gm_definition *definitions; /* the functions of the text */
     size_t definition_count;
@@ -79,10 +78,6 @@ static inline bool gm_reading_has_solution(const struct gm_reading *reading)
     return reading->system->kind <= GM_POISSON;
 }
 
-/* Reserves room, in the system's memory, for one more element of an array of `count`, which doubles when
-   full. */
-void gm_reading_reserve(struct gm_reading *reading, void **array, size_t count, size_t size);
-
 /* Reads the lines that hold for the chosen words. */
 void gm_reading_lines(struct gm_reading *reading);
 /* The first line that has the word; NULL: none. */
@@ -98,8 +93,8 @@ struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin
 /* True if a name is a key of command lines, a column of tables or a function. */
 #define GM_RESERVED " is reserved: it is a key, a line, a column of tables or a function"
 bool gm_reading_reserves(const char *name, size_t length);
-/* The names of a room's last variables. */
-extern const char *const gm_room_variables[GM_ROOM_VARIABLES];
+/* The names of a room's last variables, then NULL. */
+extern const char *const gm_room_variables[GM_ROOM_VARIABLES + 1];
 /* The entry of that name, valid until a name is added, or NULL. */
 struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *name, size_t length,
                                   bool indexed, long index);
@@ -107,9 +102,6 @@ struct gm_entry *gm_reading_entry(const struct gm_reading *reading, const char *
 struct gm_entry *gm_reading_named(const struct gm_reading *reading, struct gm_span name);
 /* Adds a copy of the entry; its name may be a part of the text. */
 void gm_reading_add(struct gm_reading *reading, struct gm_entry entry);
-/* The function of that name, or NULL. */
-struct gm_definition *gm_reading_definition(const struct gm_reading *reading, const char *name,
-                                            size_t length);
 /* Reads the body of a function that no formula has called, for its faults. */
 void gm_reading_check(struct gm_reading *reading, struct gm_definition *definition);
 /* Reads a parameter or a let, after all names that it needs. */
@@ -120,9 +112,6 @@ gm_node_id gm_reading_formula(struct gm_reading *reading, struct gm_span span);
 gm_node_id gm_reading_formula_of_exact(struct gm_reading *reading, struct gm_span span);
 /* Reads a condition, as a node that is 1 or 0. */
 gm_node_id gm_reading_condition(struct gm_reading *reading, struct gm_span span);
-/* Reads a formula with an index of the name `bound` and the value `element`; NULL: no index. */
-gm_node_id gm_reading_bound(struct gm_reading *reading, struct gm_span span, const struct gm_span *bound,
-                            long element);
 /* Reads a number in parameters alone. */
 double gm_reading_number(struct gm_reading *reading, struct gm_span span);
 /* Reads such a number that has to be finite. */

@@ -5,13 +5,11 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 void gm_system_close(void *data)
 {
     struct gm_user_system *system = data;
     gm_arena_close(system->arena);
-    free(system->mass.entries);
     gm_formula_close(&system->graph);
     *system = (struct gm_user_system){0};
 }

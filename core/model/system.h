@@ -4,11 +4,10 @@
 #define GM_CORE_MODEL_SYSTEM_H
 
 #include "core/arena.h"
-#include "core/expression/choices.h"
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
-#include "core/expression/reader.h"
 #include "core/expression/writer.h"
+#include "core/model/choices.h"
 
 enum gm_system_kind {
     GM_CANONICAL,  /* coordinates, then their momenta; H */

@@ -10,10 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
-#include "core/expression/choices.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
+#include "core/model/choices.h"
 
 enum {
     ONE_TABLEAU = 1 << GM_WRITTEN_RUNGE_KUTTA | 1 << GM_WRITTEN_EXPLICIT,
@@ -105,15 +104,31 @@ struct reading {
     struct gm_fault *fault;
 };
 
+_Noreturn static void leave(const struct reading *reading, size_t place, const char *format,
+                            va_list arguments)
+{
+    vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
+    reading->fault->offset = place;
+    gm_arena_leave(reading->arena);
+}
+
 _Noreturn __attribute__((format(printf, 3, 4))) static void fail(const struct reading *reading, size_t place,
                                                                  const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
+    leave(reading, place, format, arguments);
+}
+
+__attribute__((format(printf, 4, 5))) static void fail_if(const struct reading *reading, bool wrong,
+                                                          size_t place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (wrong) {
+        leave(reading, place, format, arguments);
+    }
     va_end(arguments);
-    reading->fault->offset = place;
-    gm_arena_leave(reading->arena);
 }
 
 static int brief(struct gm_span span)
@@ -168,15 +183,12 @@ static void take_line(struct reading *reading, enum gm_scheme_word word, size_t 
             gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
     }
     if (word == GM_SCHEME_WORD_LET) {
-        if (scheme->let_count == GM_MOST_LETS) {
-            fail(reading, place, "a scheme has at most %d lets", GM_MOST_LETS);
-        }
+        fail_if(reading, scheme->let_count == GM_MOST_LETS, place, "a scheme has at most %d lets",
+                GM_MOST_LETS);
         scheme->lets[scheme->let_count++] = value;
         return;
     }
-    if (scheme->lines[word].said) {
-        fail(reading, place, "%s: is given twice", words[word].word);
-    }
+    fail_if(reading, scheme->lines[word].said, place, "%s: is given twice", words[word].word);
     scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
 }
 
@@ -199,16 +211,17 @@ static void find_kind(struct reading *reading, struct gm_span name)
 
 static void read_file(struct reading *reading, struct gm_span span)
 {
-    struct gm_read_lines lines = {.words = &lines_of_schemes, .text = reading->text, .span = span};
-    gm_arena_need(reading->arena, gm_lines_read(&lines, reading->fault));
-    gm_arena_keep(reading->arena, lines.list, free);
+    struct gm_read_lines lines = {.arena = reading->arena,
+                                  .fault = reading->fault,
+                                  .words = &lines_of_schemes,
+                                  .text = reading->text,
+                                  .span = span};
+    gm_lines_read(&lines);
     for (size_t i = 0; i < lines.count; i++) {
         take_line(reading, (enum gm_scheme_word)lines.list[i].word, lines.list[i].place, lines.list[i].value);
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
-    if (!kind->said) {
-        fail(reading, span.begin, "what kind of scheme is it? It needs a line kind:");
-    }
+    fail_if(reading, !kind->said, span.begin, "what kind of scheme is it? It needs a line kind:");
     find_kind(reading, kind->value);
 }
 
@@ -229,12 +242,8 @@ static void read_word(struct reading *reading, struct gm_span span)
     const char *text = reading->text;
     const size_t open = span.begin + gm_written_word_name(text + span.begin, span.end - span.begin);
     const size_t close = closing(text, (struct gm_span){open, span.end});
-    if (close == span.end) {
-        fail(reading, open, "this parenthesis is not closed");
-    }
-    if (close + 1 < span.end) {
-        fail(reading, close + 1, "the scheme ends before this");
-    }
+    fail_if(reading, close == span.end, open, "this parenthesis is not closed");
+    fail_if(reading, close + 1 < span.end, close + 1, "the scheme ends before this");
     struct gm_span rest = {open + 1, close}, segment;
     int positional = 0;
     reading->scheme->kind = kind_of(text + span.begin, open - span.begin);
@@ -260,11 +269,10 @@ static void read_word(struct reading *reading, struct gm_span span)
         }
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
-    if (kind->said &&
-        kind_of(text + kind->value.begin, kind->value.end - kind->value.begin) != reading->scheme->kind) {
-        fail(reading, kind->value.begin, "the word says that it is of the kind %s",
-             kinds[reading->scheme->kind].name);
-    }
+    fail_if(reading,
+            kind->said && kind_of(text + kind->value.begin, kind->value.end - kind->value.begin) !=
+                              reading->scheme->kind,
+            kind->value.begin, "the word says that it is of the kind %s", kinds[reading->scheme->kind].name);
 }
 
 /* Checks that every given line belongs to the kind, and that the lines it needs are given. */
@@ -273,16 +281,14 @@ static void check_lines(const struct reading *reading)
     const struct gm_written_scheme *scheme = reading->scheme;
     const char *name = kinds[scheme->kind].name;
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
-        if (scheme->lines[word].said && !(words[word].kinds >> scheme->kind & 1)) {
-            fail(reading, scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
-                 words[word].word);
-        }
+        fail_if(reading, scheme->lines[word].said && !(words[word].kinds >> scheme->kind & 1),
+                scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
+                words[word].word);
     }
     for (int i = 0; i < kinds[scheme->kind].required; i++) {
         const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
-        if (!scheme->lines[word].said) {
-            fail(reading, reading->span.begin, "a scheme of the kind %s needs %s:", name, words[word].word);
-        }
+        fail_if(reading, !scheme->lines[word].said, reading->span.begin,
+                "a scheme of the kind %s needs %s:", name, words[word].word);
     }
 }
 
@@ -327,14 +333,10 @@ static gm_node_id decimal(void *data, const char *text, size_t length, double va
     if (whole && value < 1e15) {
         return gm_formula_constant(&reading->graph, value);
     }
-    if (whole && length > GM_BALL_DIGITS) {
-        fail(reading, (size_t)(text - reading->text), "a whole number has at most %d digits", GM_BALL_DIGITS);
-    }
+    fail_if(reading, whole && length > GM_BALL_DIGITS, (size_t)(text - reading->text),
+            "a whole number has at most %d digits", GM_BALL_DIGITS);
     const size_t count = reading->decimal_count;
-    if ((count & (count - 1)) == 0) {
-        reading->decimals = gm_arena_resize(reading->arena, reading->decimals, count ? 2 * count : 1,
-                                            sizeof *reading->decimals);
-    }
+    reading->decimals = gm_arena_grown(reading->arena, reading->decimals, count, sizeof *reading->decimals);
     reading->decimals[count] = known_decimal(reading, text, length, value);
     reading->decimal_count++;
     return gm_formula_variable(&reading->graph, count);
@@ -345,8 +347,8 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     const struct reading *reading = data;
     for (int i = 0; i < reading->scheme->let_count; i++) {
         const struct formula *let = &reading->lets[i];
-        if (let->name.end - let->name.begin == name->length &&
-            memcmp(reading->text + let->name.begin, name->text, name->length) == 0) {
+        if (gm_text_same(reading->text + let->name.begin, let->name.end - let->name.begin, name->text,
+                         name->length)) {
             *node = let->node;
             if (name->indexed) {
                 snprintf(sentence, GM_FAULT_SENTENCE, "%s is not a list", reading->let_names[i]);
@@ -383,18 +385,15 @@ static void name_let(struct reading *reading, int i)
     const size_t length = gm_name_length(text + span.begin, span.end - span.begin);
     let->name = (struct gm_span){span.begin, span.begin + length};
     const struct gm_span rest = gm_span_trimmed(text, (struct gm_span){let->name.end, span.end});
-    if (length == 0 || rest.begin == rest.end || text[rest.begin] != '=') {
-        fail(reading, length ? rest.begin : span.begin, "a let is a name, = and a formula");
-    }
-    if (length >= sizeof reading->let_names[0] || gm_formula_reserves(text + span.begin, length)) {
-        fail(reading, span.begin, "the name %.*s is %s", brief(let->name), text + span.begin,
-             length >= sizeof reading->let_names[0] ? "too long" : "reserved");
-    }
+    fail_if(reading, length == 0 || rest.begin == rest.end || text[rest.begin] != '=',
+            length ? rest.begin : span.begin, "a let is a name, = and a formula");
+    fail_if(reading, length >= sizeof reading->let_names[0] || gm_formula_reserves(text + span.begin, length),
+            span.begin, "the name %.*s is %s", brief(let->name), text + span.begin,
+            length >= sizeof reading->let_names[0] ? "too long" : "reserved");
     memcpy(reading->let_names[i], text + span.begin, length);
     for (int k = 0; k < i; k++) {
-        if (strcmp(reading->let_names[k], reading->let_names[i]) == 0) {
-            fail(reading, span.begin, "%s is defined twice", reading->let_names[i]);
-        }
+        fail_if(reading, strcmp(reading->let_names[k], reading->let_names[i]) == 0, span.begin,
+                "%s is defined twice", reading->let_names[i]);
     }
     let->value = gm_span_trimmed(text, (struct gm_span){rest.begin + 1, rest.end});
 }
@@ -417,10 +416,8 @@ static void read_lets(struct reading *reading)
         }
     }
     for (int i = 0; i < count; i++) {
-        if (!reading->lets[i].read) {
-            fail(reading, reading->lets[i].name.begin, "%s is defined by itself, through other lets",
-                 reading->let_names[i]);
-        }
+        fail_if(reading, !reading->lets[i].read, reading->lets[i].name.begin,
+                "%s is defined by itself, through other lets", reading->let_names[i]);
     }
 }
 
@@ -429,9 +426,7 @@ static bool take_piece(const struct reading *reading, struct gm_span *rest, cons
                        struct gm_span *piece)
 {
     const size_t end = gm_span_until(reading->text, *rest, separator);
-    if (end < rest->end && end + 1 == rest->end) {
-        fail(reading, end, "nothing follows this %s", separator);
-    }
+    fail_if(reading, end < rest->end && end + 1 == rest->end, end, "nothing follows this %s", separator);
     return gm_span_take(reading->text, rest, separator, piece);
 }
 
@@ -443,9 +438,8 @@ static void count_schemes(struct reading *reading)
         struct gm_span rest = line->value, piece;
         for (bool more = line->said && holds[word] == SCHEME; more; more = rest.begin < rest.end) {
             take_piece(reading, &rest, ",", &piece);
-            if (++line->columns > 1 && reading->scheme->kind != GM_WRITTEN_COMPOSITION) {
-                fail(reading, piece.begin, "%s: names one scheme", words[word].word);
-            }
+            fail_if(reading, ++line->columns > 1 && reading->scheme->kind != GM_WRITTEN_COMPOSITION,
+                    piece.begin, "%s: names one scheme", words[word].word);
         }
     }
 }
@@ -473,24 +467,18 @@ static void read_numbers(struct reading *reading, enum gm_scheme_word word)
     for (int count = 0; take_piece(reading, &rows, "|", &row); line->rows++) {
         const size_t begin = row.begin;
         int columns = 0;
-        if (holds[word] != MATRIX && line->rows == 1) {
-            fail(reading, begin, "%s is one row", words[word].word);
-        }
-        if (line->rows == most) {
-            fail(reading, begin, "a scheme has at most %d stages", most);
-        }
+        fail_if(reading, holds[word] != MATRIX && line->rows == 1, begin, "%s is one row", words[word].word);
+        fail_if(reading, line->rows == most, begin, "a scheme has at most %d stages", most);
         for (; take_piece(reading, &row, ",", &entry); columns++, count++) {
-            if (columns == most) {
-                fail(reading, entry.begin, "a scheme has at most %d %s", most, stages ? "stages" : "steps");
-            }
+            fail_if(reading, columns == most, entry.begin, "a scheme has at most %d %s", most,
+                    stages ? "stages" : "steps");
             line->numbers[count].place = entry.begin;
             line->numbers[count].length = length_of(reading->text, entry);
             gm_arena_need(reading->arena, read_formula(reading, entry, &reading->nodes[word][count]));
         }
-        if (line->rows > 0 && columns != line->columns) {
-            fail(reading, begin, "row %d of %s has %d entries, the first has %d", line->rows + 1,
-                 words[word].word, columns, line->columns);
-        }
+        fail_if(reading, line->rows > 0 && columns != line->columns, begin,
+                "row %d of %s has %d entries, the first has %d", line->rows + 1, words[word].word, columns,
+                line->columns);
         line->columns = columns;
     }
 }
@@ -564,10 +552,8 @@ static void compute(struct reading *reading)
             const gm_node_id node = reading->nodes[word][i];
             number->value = values[node];
             number->ball = balls[node];
-            if (!(isfinite(number->ball.radius) && fabs(number->value) < 1e6)) {
-                fail(reading, number->place, "this coefficient is %g: no finite number below a million",
-                     number->value);
-            }
+            fail_if(reading, !(isfinite(number->ball.radius) && fabs(number->value) < 1e6), number->place,
+                    "this coefficient is %g: no finite number below a million", number->value);
         }
     }
 }
@@ -593,10 +579,8 @@ static void check_sums(struct reading *reading, const struct gm_written_line *a,
             sum = gm_ball_add(sum, entry_of(a, i, j)->ball);
         }
         const bool same = gm_ball_may_vanish(gm_ball_subtract(sum, said->ball));
-        if (!same && !tried) {
-            fail(reading, said->place, "row %d of a sums to %.15g, c says %.15g", i + 1,
-                 gm_ball_midpoint(sum), said->value);
-        }
+        fail_if(reading, !same && !tried, said->place, "row %d of a sums to %.15g, c says %.15g", i + 1,
+                gm_ball_midpoint(sum), said->value);
         if (sums && (!same || said->ball.radius > rounding)) {
             gather(reading, &sums->at, &sums->count, (struct gm_decimal){said->place, said->length, sum});
         }
@@ -610,10 +594,9 @@ static void check_tableau(struct reading *reading)
     const int stages = a->rows;
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         const struct gm_written_line *line = &scheme->lines[word];
-        if (holds[word] == MATRIX && line->said && line->rows != line->columns) {
-            fail(reading, line->value.begin, "%s has %d rows of %d entries: it is not square",
-                 words[word].word, line->rows, line->columns);
-        }
+        fail_if(reading, holds[word] == MATRIX && line->said && line->rows != line->columns,
+                line->value.begin, "%s has %d rows of %d entries: it is not square", words[word].word,
+                line->rows, line->columns);
         if (line->rows > 0 && line->columns != stages) {
             fail(reading, line->value.begin, "%s has %d entries%s; the rows of a make %d stages",
                  words[word].word, line->columns, line->rows > 1 ? " in a row" : "", stages);
@@ -621,11 +604,9 @@ static void check_tableau(struct reading *reading)
     }
     for (int i = 0; scheme->kind == GM_WRITTEN_EXPLICIT && i < stages; i++) {
         for (int j = i; j < stages; j++) {
-            if (entry_of(a, i, j)->value != 0) {
-                fail(reading, entry_of(a, i, j)->place,
-                     "entry %d, %d is %s the diagonal and not 0: the scheme is not explicit", i + 1, j + 1,
-                     i == j ? "on" : "above");
-            }
+            fail_if(reading, entry_of(a, i, j)->value != 0, entry_of(a, i, j)->place,
+                    "entry %d, %d is %s the diagonal and not 0: the scheme is not explicit", i + 1, j + 1,
+                    i == j ? "on" : "above");
         }
     }
     if (scheme->kind != GM_WRITTEN_NYSTROM && c->said) {
@@ -638,17 +619,15 @@ static void check_steps(struct reading *reading)
     const struct gm_written_line *steps = &reading->scheme->lines[GM_SCHEME_WORD_STEPS];
     const int bases = reading->scheme->lines[GM_SCHEME_WORD_BASE].columns;
     double sum = 0;
-    if (steps->columns % bases != 0) {
-        fail(reading, steps->value.begin, "%d step%s cannot be shared by %d bases in turns", steps->columns,
-             gm_plural(steps->columns), bases);
-    }
+    fail_if(reading, steps->columns % bases != 0, steps->value.begin,
+            "%d step%s cannot be shared by %d bases in turns", steps->columns, gm_plural(steps->columns),
+            bases);
     for (int i = 0; i < steps->columns; i++) {
         sum += steps->numbers[i].value;
     }
     const bool tried = reading->gathered && reading->gathered->instead;
-    if (!tried && !(fabs(sum - 1) <= 1e-3)) {
-        fail(reading, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
-    }
+    fail_if(reading, !tried && !(fabs(sum - 1) <= 1e-3), steps->value.begin,
+            "the steps sum to %.15g, not to 1", sum);
 }
 
 static bool is_text(const struct reading *reading, const struct gm_written_line *line, const char *word)
@@ -663,22 +642,18 @@ static void check_pieces(struct reading *reading)
     const struct gm_written_line *purpose = &scheme->lines[GM_SCHEME_WORD_FOR];
     const int drifts = scheme->lines[GM_SCHEME_WORD_DRIFTS].columns;
     const int kicks = scheme->lines[GM_SCHEME_WORD_KICKS].columns;
-    if (abs(drifts - kicks) > 1) {
-        fail(reading, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
-             "%d drifts and %d kicks cannot take turns", drifts, kicks);
-    }
+    fail_if(reading, abs(drifts - kicks) > 1, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
+            "%d drifts and %d kicks cannot take turns", drifts, kicks);
     scheme->kick_first = kicks > drifts || (first->said && is_text(reading, first, "kick"));
-    if (first->said && !is_text(reading, first, "kick") && !is_text(reading, first, "drift")) {
-        fail(reading, first->value.begin, "first: is kick or drift");
-    }
-    if (first->said && drifts != kicks && is_text(reading, first, kicks > drifts ? "drift" : "kick")) {
-        fail(reading, first->value.begin, "there is one more %s: a %s is first",
-             kicks > drifts ? "kick than drifts" : "drift than kicks", kicks > drifts ? "kick" : "drift");
-    }
+    fail_if(reading, first->said && !is_text(reading, first, "kick") && !is_text(reading, first, "drift"),
+            first->value.begin, "first: is kick or drift");
+    fail_if(reading,
+            first->said && drifts != kicks && is_text(reading, first, kicks > drifts ? "drift" : "kick"),
+            first->value.begin, "there is one more %s: a %s is first",
+            kicks > drifts ? "kick than drifts" : "drift than kicks", kicks > drifts ? "kick" : "drift");
     scheme->nystrom = purpose->said && is_text(reading, purpose, "nystrom");
-    if (purpose->said && !scheme->nystrom) {
-        fail(reading, purpose->value.begin, "for: is nystrom, where T is quadratic, or is left out");
-    }
+    fail_if(reading, purpose->said && !scheme->nystrom, purpose->value.begin,
+            "for: is nystrom, where T is quadratic, or is left out");
 }
 
 static void read_order(struct reading *reading)
@@ -690,9 +665,8 @@ static void read_order(struct reading *reading)
         const bool good = digit >= '0' && digit <= '9' && reading->scheme->order <= MOST;
         reading->scheme->order = good ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
     }
-    if (order->said && (reading->scheme->order == 0 || reading->scheme->order > MOST)) {
-        fail(reading, order->value.begin, "order: is a whole number from 1 to %d", MOST);
-    }
+    fail_if(reading, order->said && (reading->scheme->order == 0 || reading->scheme->order > MOST),
+            order->value.begin, "order: is a whole number from 1 to %d", MOST);
 }
 
 /* A title is a part of the word: its parentheses must match, and it has no semicolon outside of them. */
@@ -705,10 +679,8 @@ static void check_title(const struct reading *reading)
         const int opens = (here == '(' || here == '['), closes = (here == ')' || here == ']');
         depth = here == ';' ? -1 : depth + opens - closes;
     }
-    if (depth != 0) {
-        fail(reading, title->value.begin,
-             "a title has no semicolon, and closes its parentheses and brackets");
-    }
+    fail_if(reading, depth != 0, title->value.begin,
+            "a title has no semicolon, and closes its parentheses and brackets");
 }
 
 static void read(struct gm_arena *arena, void *data)
@@ -720,9 +692,8 @@ static void read(struct gm_arena *arena, void *data)
     gm_formula_open(&reading->graph);
     reading->graph.keeps = true;
     gm_arena_keep(arena, &reading->graph, gm_formula_close);
-    if (length > GM_LARGEST_SCHEME) {
-        fail(reading, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
-    }
+    fail_if(reading, length > GM_LARGEST_SCHEME, span.begin, "a scheme has at most %d bytes",
+            GM_LARGEST_SCHEME);
     if (!gm_lines_are_text(reading->text + span.begin, length, reading->fault)) {
         reading->fault->offset += span.begin;
         gm_arena_leave(arena);
@@ -777,47 +748,24 @@ void gm_written_close(void *written)
     *scheme = (struct gm_written_scheme){0};
 }
 
-static void put(FILE *stream, const char *word, const char *value)
-{
-    if (value) {
-        fprintf(stream, "%s: %s; ", word, value);
-    }
-}
-
-char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
+char *gm_written_word(struct gm_arena *arena, const struct gm_written_scheme *scheme, const char *title,
                       const char *const schemes[GM_SCHEME_WORDS])
 {
-    char *text = NULL;
-    size_t size = 0;
-    bool good = true;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    fprintf(stream, "%s(", kinds[scheme->kind].name);
-    put(stream, words[GM_SCHEME_WORD_TITLE].word, title);
+    char *text = gm_arena_print(arena, "%s(", kinds[scheme->kind].name);
+    text = title ? gm_arena_print(arena, "%stitle: %s; ", text, title) : text;
     for (int i = 0; i < scheme->let_count; i++) {
-        char *value = gm_span_words(scheme->text, scheme->lets[i]);
-        good = good && value;
-        put(stream, words[GM_SCHEME_WORD_LET].word, value);
-        free(value);
+        const char *let = gm_arena_keep(arena, gm_span_words(scheme->text, scheme->lets[i]), free);
+        text = gm_arena_print(arena, "%slet: %s; ", text, let);
     }
     for (enum gm_scheme_word word = GM_SCHEME_WORD_ORDER; word < GM_SCHEME_WORDS; word++) {
-        if (scheme->lines[word].said && holds[word] == SCHEME) {
-            put(stream, words[word].word, schemes[word]);
-        } else if (scheme->lines[word].said) {
-            char *value = gm_span_words(scheme->text, scheme->lines[word].value);
-            good = good && value;
-            put(stream, words[word].word, value);
-            free(value);
+        const struct gm_written_line *line = &scheme->lines[word];
+        if (line->said) {
+            const char *value = holds[word] == SCHEME
+                                    ? schemes[word]
+                                    : gm_arena_keep(arena, gm_span_words(scheme->text, line->value), free);
+            text = gm_arena_print(arena, "%s%s: %s; ", text, words[word].word, value);
         }
     }
-    good = fclose(stream) == 0 && good;
-    if (!good) {
-        free(text);
-        return NULL;
-    }
-    text[size - 2] = ')'; /* instead of the last semicolon */
-    text[size - 1] = '\0';
+    strcpy(text + strlen(text) - 2, ")"); /* instead of the last semicolon */
     return text;
 }

@@ -97,9 +97,9 @@ bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t 
 void gm_written_close(void *scheme); /* for arenas too */
 
 /* The word that is read to the same scheme: title, order, claims, lets and coefficients in parentheses behind
-   the kind. `schemes` are the words for the schemes that it names, by the word of their line. malloc'ed, NULL:
-   out of memory. */
-char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
+   the kind. `schemes` are the words for the schemes that it names, by the word of their line. In memory of
+   the arena, whose body runs. */
+char *gm_written_word(struct gm_arena *arena, const struct gm_written_scheme *scheme, const char *title,
                       const char *const schemes[GM_SCHEME_WORDS]);
 
 #endif

@@ -17,8 +17,8 @@
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 #include "core/expression/reader.h"
-#include "core/expression/tidied.h"
 #include "core/expression/writer.h"
+#include "core/tape.h"
 #include "tests/common/random_formula.h"
 #include "tests/common/reference.h"
 
@@ -422,8 +422,8 @@ static void jacobians_are_sparse(void **unused)
     gm_formula_open(&graph);
     assert_true(read_formula(&graph, "sum(i = 1 .. N-1, (q[i] - q[i+1])^4) + x^2/2", &node, &fault));
     assert_true(gm_gradient(&graph, node, marked, NAMES, gradient));
-    struct gm_sparse hessian;
-    assert_true(gm_sparse_jacobian(&graph, gradient, NAMES, marked, NAMES, &hessian));
+    struct gm_arena *arena = gm_arena_open();
+    const struct gm_sparse hessian = gm_sparse_jacobian(arena, &graph, gradient, NAMES, marked, NAMES);
     assert_int_equal(hessian.count, 1 + LIST + 2 * (LIST - 1)); /* x, and a band of three */
     for (size_t i = 0; i < hessian.count; i++) {
         const struct gm_sparse_entry *entry = &hessian.entries[i];
@@ -437,7 +437,7 @@ static void jacobians_are_sparse(void **unused)
             }
         }
     }
-    free(hessian.entries);
+    gm_arena_close(arena);
     gm_formula_close(&graph);
 }
 

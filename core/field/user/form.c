@@ -52,24 +52,11 @@ static void hessians(const void *parameters, const double *s, double *to, size_t
 bool gm_user_form_derive(struct gm_user_form *form, struct gm_user_system *system)
 {
     const size_t n = system->n;
-    struct gm_sparse hessian = {0};
-    bool *marked = calloc(system->variable_count, sizeof *marked);
     *form = (struct gm_user_form){.system = system};
-    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; marked && i < n; i++) {
-        marked[i] = true;
+    for (size_t row = 0; row < n; row++) { /* the components are the first variables */
+        gm_gradient(&system->graph, system->rates[row], NULL, n, form->hessian + row * n);
     }
-    const bool good = marked && gm_sparse_jacobian(&system->graph, system->rates, n, marked,
-                                                   system->variable_count, &hessian);
-    for (size_t i = 0; i < n * n; i++) {
-        form->hessian[i] = zero;
-    }
-    for (size_t i = 0; i < hessian.count; i++) {
-        form->hessian[hessian.entries[i].row * n + hessian.entries[i].column] = hessian.entries[i].node;
-    }
-    free(hessian.entries);
-    free(marked);
-    return good && gm_line_derive(&form->formulas, system) && !system->graph.failed;
+    return !system->graph.failed && gm_line_derive(&form->formulas, system) && !system->graph.failed;
 }
 
 /* The potentials, and their jumps. */

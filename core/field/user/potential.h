@@ -4,7 +4,7 @@
 #define GM_CORE_FIELD_USER_POTENTIAL_H
 
 #include "core/field/field.h"
-#include "core/model/potential.h"
+#include "core/model/recognition.h"
 #include "core/user/line.h"
 
 /* The problem with these values of all variables (gm_equations_start) on that ring, or between walls.

@@ -5,7 +5,7 @@
 #define GM_CORE_MESH_USER_FORMULAS_H
 
 #include "core/mesh/moving_mesh.h"
-#include "core/model/potential.h"
+#include "core/model/recognition.h"
 #include "core/tape.h"
 
 /* Meanings of names in formulas: the system, values of its variables, of which the parameters are used, and of alpha,

@@ -50,8 +50,7 @@ void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian
     }
     gm_formula_substitute(&system->graph, model->nodes, n + 1, others, count);
     memset(marked, true, model->components);
-    gm_sparse_keep(arena, &model->slopes,
-                   gm_sparse_jacobian(&system->graph, model->nodes, n, marked, count, &model->slopes));
+    model->slopes = gm_sparse_jacobian(arena, &system->graph, model->nodes, n, marked, count);
     model->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &model->slopes);
     model->momenta = gm_sparse_nodes(arena, model->nodes, half, &model->slopes);
     model->momenta_count = half;

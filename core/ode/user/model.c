@@ -115,9 +115,8 @@ static void open_rates(struct gm_arena *arena, const struct opening *opening,
         gm_arena_need(arena, gm_formula_substitute(&system->graph, rates->nodes, n, replacement, variables));
     }
     if (model->has_jacobian) {
-        gm_sparse_keep(arena, &rates->jacobian,
-                       gm_sparse_jacobian(&system->graph, rates->nodes, n, opening->marked, variables,
-                                          &rates->jacobian));
+        rates->jacobian =
+            gm_sparse_jacobian(arena, &system->graph, rates->nodes, n, opening->marked, variables);
         rates->slopes = gm_sparse_nodes(arena, NULL, 0, &rates->jacobian);
     }
 }
@@ -130,12 +129,9 @@ static void open_functions(struct gm_arena *arena, struct gm_user_system *system
     bool *coordinates = gm_arena_take(arena, variables, sizeof *coordinates);
     memset(coordinates, true, functions->coordinates * sizeof *coordinates);
     struct gm_sparse *slopes = &functions->slopes, *second = &functions->second;
-    gm_sparse_keep(arena, slopes,
-                   gm_sparse_jacobian(&system->graph, nodes, count, coordinates, variables, slopes));
+    *slopes = gm_sparse_jacobian(arena, &system->graph, nodes, count, coordinates, variables);
     nodes = gm_sparse_nodes(arena, nodes, count, slopes);
-    gm_sparse_keep(
-        arena, second,
-        gm_sparse_jacobian(&system->graph, nodes + count, slopes->count, coordinates, variables, second));
+    *second = gm_sparse_jacobian(arena, &system->graph, nodes + count, slopes->count, coordinates, variables);
     functions->nodes = gm_sparse_nodes(arena, nodes, count + slopes->count, second);
 }
 
@@ -189,9 +185,8 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->nodes = gm_arena_take(arena, event->conditions + event->changed + 1, sizeof *event->nodes);
     memcpy(event->nodes, item->nodes + first, event->conditions * sizeof *nodes);
     memcpy(event->nodes + event->conditions, nodes + 1, event->changed * sizeof *nodes);
-    gm_sparse_keep(arena, &event->slopes,
-                   gm_sparse_jacobian(&system->graph, nodes, 1 + event->changed, marked,
-                                      system->variable_count, &event->slopes));
+    event->slopes =
+        gm_sparse_jacobian(arena, &system->graph, nodes, 1 + event->changed, marked, system->variable_count);
     event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
 }
 

@@ -946,8 +946,7 @@ static void tell(const struct making *making, struct own *self, const char *name
     row->title = own_title->said ? words_of(making, own_title->value)
                  : title         ? gm_arena_print(making->arena, "%s", title)
                                  : title_of(making);
-    row->formula = row->word =
-        gm_arena_keep(making->arena, gm_written_word(making->written, row->title, words), free);
+    row->formula = row->word = gm_written_word(making->arena, making->written, row->title, words);
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 

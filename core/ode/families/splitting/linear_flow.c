@@ -23,8 +23,7 @@ bool gm_linear_flow_derive(struct gm_arena *arena, struct gm_linear_flow *flow, 
     }
     *flow = (struct gm_linear_flow){.n = n, .constant = true};
     gm_arena_need(arena, !graph->failed);
-    gm_sparse_keep(arena, &flow->slopes,
-                   gm_sparse_jacobian(graph, rates, n, moving, variables, &flow->slopes));
+    flow->slopes = gm_sparse_jacobian(arena, graph, rates, n, moving, variables);
     flow->nodes = gm_sparse_nodes(arena, rates, n, &flow->slopes);
     for (size_t i = 0; i < flow->slopes.count; i++) {
         const gm_node_id slope = flow->slopes.entries[i].node;
@@ -33,10 +32,9 @@ bool gm_linear_flow_derive(struct gm_arena *arena, struct gm_linear_flow *flow, 
     if (flow->slopes.count == 0) {
         return true;
     }
-    struct gm_sparse *all = gm_arena_take(arena, 1, sizeof *all);
-    gm_sparse_keep(arena, all, gm_sparse_jacobian(graph, rates, n, components, variables, all));
-    for (size_t i = 0; i < all->count && flow->constant; i++) {
-        flow->constant = !gm_formula_holds(graph, all->entries[i].node, components, variables);
+    const struct gm_sparse all = gm_sparse_jacobian(arena, graph, rates, n, components, variables);
+    for (size_t i = 0; i < all.count && flow->constant; i++) {
+        flow->constant = !gm_formula_holds(graph, all.entries[i].node, components, variables);
     }
     gm_arena_need(arena, !graph->failed);
     return linear;

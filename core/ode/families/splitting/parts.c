@@ -122,8 +122,7 @@ static void open_steps(struct work *work, struct part *part, const char *name, c
         gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s",
                         GM_NEWTON_LARGEST, name, by->name);
     }
-    gm_sparse_keep(work->arena, &part->jacobian,
-                   gm_sparse_jacobian(&work->graph, rates, n, NULL, n, &part->jacobian));
+    part->jacobian = gm_sparse_jacobian(work->arena, &work->graph, rates, n, NULL, n);
     const gm_node_id *slopes = gm_sparse_nodes(work->arena, NULL, 0, &part->jacobian);
     gm_tape_keep(work->arena, &part->tape, gm_tape_open(&part->tape, &work->graph, rates, n, n, NULL));
     gm_tape_keep(work->arena, &part->slopes,

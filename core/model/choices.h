@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_EXPRESSION_CHOICES_H
-#define GM_CORE_EXPRESSION_CHOICES_H
+#ifndef GM_CORE_MODEL_CHOICES_H
+#define GM_CORE_MODEL_CHOICES_H
 
+#include "core/arena.h"
 #include "core/expression/lines.h"
 
 /* Choices of a text, whose words decide which lines hold:
@@ -25,9 +26,6 @@ struct gm_written_choices {
     size_t count;
 };
 
-/* Reads the lines choice:, with their default words chosen. Returns false with a fault. */
-bool gm_choices_read(struct gm_written_choices *choices, const char *text, size_t length,
-                     struct gm_fault *fault);
 /* Returns the choice of that name, or NULL. */
 const struct gm_written_choice *gm_choice_named(const struct gm_written_choices *choices, const char *name);
 /* Chooses a word. Returns false if there is no such choice or it lacks the word. */
@@ -39,20 +37,24 @@ struct gm_read_line {
     struct gm_span value;
 };
 
-/* The lines of text[begin .. end) that hold. */
+/* The lines of text[begin .. end) that hold. They are read in a body of the arena, which is left with a fault; its
+   sentence is empty when out of memory. */
 struct gm_read_lines {
+    struct gm_arena *arena;
+    struct gm_fault *fault;
     const struct gm_line_words *words;
-    const struct gm_written_choices *choices; /* NULL: such files have none */
-    unsigned inside;                          /* kinds of which lines in blocks must have one */
+    struct gm_written_choices *choices; /* NULL: such files have none */
+    unsigned inside;                    /* kinds of which lines in blocks must have one */
     const char *text;
     struct gm_span span;
-    struct gm_read_line *list; /* malloc'ed; NULL with a fault */
+    struct gm_read_line *list;
     size_t count;
 };
 enum { GM_MOST_LINE_WORDS = 128 };
-/* Reads the lines, but choice: and when:, and those that do not hold. False with a fault, whose sentence is
-   empty when out of memory: a line whose word is none of these, a second one of a word with one line, a line
-   without a value. */
-bool gm_lines_read(struct gm_read_lines *lines, struct gm_fault *fault);
+/* Reads the lines choice:, with their default words chosen. */
+void gm_choices_read(const struct gm_read_lines *lines);
+/* Reads the lines, but choice: and when:, and those that do not hold. Faults: a line whose word is none of these, a
+   second one of a word with one line, a line without a value. */
+void gm_lines_read(struct gm_read_lines *lines);
 
 #endif
