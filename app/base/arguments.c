@@ -191,13 +191,3 @@ void gm_append(char *text, size_t size, const char *format, ...)
     vsnprintf(text + used, size - used, format, values);
     va_end(values);
 }
-
-char *gm_text(const char *format, ...)
-{
-    char *text = NULL;
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vasprintf(&text, format, arguments);
-    va_end(arguments);
-    return length < 0 ? NULL : text;
-}

@@ -49,7 +49,4 @@ char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
 /* Appends to a text, as far as its `size` bytes have room. */
 __attribute__((format(printf, 3, 4))) void gm_append(char *text, size_t size, const char *format, ...);
 
-/* A text as printf writes it; malloc'ed. Returns NULL when out of memory. */
-__attribute__((format(printf, 1, 2))) char *gm_text(const char *format, ...);
-
 #endif

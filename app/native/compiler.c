@@ -157,23 +157,14 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
    /proc/PID/stat. Returns false for any other line. */
 static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
 {
-    enum { GROUP = 2, FIRST_TIME = 11, LAST_TIME = 14 };
-    const char *at = strrchr(text, ')'); /* a name may hold anything */
-    char *end = NULL;
-    *ticks = 0;
-    if (!at || at[1] != ' ' || !at[2]) {
-        return false;
-    }
-    at += 3; /* after the letter of the state, which is number 0 */
-    for (int k = 1; k <= LAST_TIME; k++, at = end) {
-        const long number = strtol(at, &end, 10);
-        if (end == at) {
-            return false;
-        }
-        *group = k == GROUP ? (pid_t)number : *group;
-        *ticks += k >= FIRST_TIME ? (unsigned long)number : 0;
-    }
-    return true;
+    const char *name_end = strrchr(text, ')'); /* a name may hold anything */
+    unsigned long times[4] = {0};
+    const int read = name_end
+                         ? sscanf(name_end, ") %*c %*d %d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %lu %lu",
+                                  group, &times[0], &times[1], &times[2], &times[3])
+                         : 0;
+    *ticks = times[0] + times[1] + times[2] + times[3];
+    return read == 5;
 }
 
 /* The CPU time of all processes of a group, in ticks; 0 if it is unavailable. */
