@@ -209,8 +209,7 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
     if (fstat(compilation->complaints, &complaints) == 0 && complaints.st_size > MOST_COMPLAINTS) {
         char line[200];
         first_line(compilation, line, sizeof line);
-        gm_refuse(sentence, "the compiler complained without end: %s", line);
-        return true;
+        return !gm_refuse(sentence, "the compiler complained without end: %s", line);
     }
     if (now < compilation->seen + most) {
         return false;
@@ -219,17 +218,12 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
     compilation->seen = now;
     compilation->ticks = ticks;
     if ((double)ticks > most * (double)sysconf(_SC_CLK_TCK)) {
-        gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most);
-        return true;
+        return !gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most);
     }
     if (now > compilation->begin + LONGEST * most) {
-        gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
-        return true;
+        return !gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
     }
-    if (ticks == before) {
-        gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
-    }
-    return ticks == before;
+    return ticks == before && !gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
 }
 
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence)

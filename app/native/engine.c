@@ -27,34 +27,7 @@
    subexpressions would take a fifth of the time and find nothing.) Functions of formulas are always the
    library's, except single instructions. */
 static const char *const flags[] = {
-    "-std=c17",
-    "-O3",
-    "-ffp-contract=off",
-    "-fno-math-errno",
-    "-fno-gcse",
-    "-fno-gcse-after-reload",
-    "-fno-builtin-pow",
-    "-fno-builtin-exp",
-    "-fno-builtin-log",
-    "-fno-builtin-sin",
-    "-fno-builtin-cos",
-    "-fno-builtin-tan",
-    "-fno-builtin-asin",
-    "-fno-builtin-acos",
-    "-fno-builtin-atan",
-    "-fno-builtin-atan2",
-    "-fno-builtin-sinh",
-    "-fno-builtin-cosh",
-    "-fno-builtin-tanh",
-    "-fno-builtin-erfc",
-    "-fno-builtin-fmod",
-    "-D_GNU_SOURCE",
-    "-DGM_PROBLEM=user",
-    "-DGM_ISA=native",
-    "-w",
-    "-shared",
-    "-fPIC",
-};
+    GM_NATIVE_FLAGS, "-D_GNU_SOURCE", "-DGM_PROBLEM=user", "-DGM_ISA=native", "-w", "-shared", "-fPIC"};
 static const char *const isa_flags[GM_ISA_COUNT][3] = {
     [GM_ISA_AVX2] = {"-mavx2"},
     [GM_ISA_AVX512] = {"-march=skylake-avx512", "-mno-fma", "-mprefer-vector-width=512"},
@@ -101,18 +74,6 @@ static void (*tell)(const char *sentence);
 static bool (*interrupted)(void);
 static atomic_bool stopping; /* the program ends, and its compilations with it */
 static double spent_in_all;
-
-bool gm_engine_named(const char *word, enum gm_engine *engine)
-{
-    static const char *const words[] = {"auto", "interpreted", "native"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(words[i], word) == 0) {
-            *engine = (enum gm_engine)i;
-            return true;
-        }
-    }
-    return false;
-}
 
 static bool is_written(const struct gm_lane *lane)
 {
