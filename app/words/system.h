@@ -29,9 +29,6 @@ int gm_system_open(struct gm_user_system *system, const struct gm_file *file,
 bool gm_system_is(const char *word);
 /* The scene of that name, in any letter case if no file has the name; or NULL. */
 const struct gm_scene *gm_scene_called(const char *word);
-/* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
-   words. */
-const char *const *gm_system_keys(const char *word);
 /* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
    built have the given values, and typed formulas replace those of the file. The scene lives as long as
    the program, and the same words give the same scene. Returns NULL with a sentence and an exit status. */
