@@ -123,12 +123,15 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
 /* The meanings of the letters of claims, for all claims that these schemes make. */
 static void print_legend(const struct gm_scheme *const *schemes, size_t count)
 {
-    char text[512];
+    char text[512] = "claims: ";
     unsigned claims = 0;
     for (size_t i = 0; i < count; i++) {
         claims |= schemes[i]->claims;
     }
-    gm_print_wrapped(gm_catalogue_claims(claims, true, text, sizeof text), printf("\nclaims: ") - 1, 8);
+    const size_t before = strlen(text);
+    gm_catalogue_claims(claims, true, text + before, sizeof text - before);
+    printf("\n");
+    gm_print_wrapped(text, 0, 8);
 }
 
 /* The page of a scheme and of all that have its name, for other kinds of problems; NULL: a list of all schemes. */
