@@ -212,8 +212,8 @@ bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *
     return found >= 0;
 }
 
-/* Removes the files that a filter chooses, and counts them: those that are not entries only if they are regular and,
-   unless `recent`, older than an hour. Returns false with a sentence if one stays. */
+/* Removes the files that a filter chooses, and counts them. A file that is not an entry stays unless it is regular and
+   older than an hour; with `recent` its age does not matter. Returns false with a sentence if a removal fails. */
 static bool remove_files(const char *folder, int (*filter)(const struct dirent *file), bool recent,
                          size_t *count, char *sentence)
 {

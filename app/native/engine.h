@@ -8,7 +8,7 @@
    are compiled from the same formulas by the system's C compiler, once for a system and a family of
    schemes, and cached; a lane takes them between two steps, after a block of steps has agreed bit by bit. */
 
-/* In the order of the option --engine. */
+/* The order is that of the option --engine. */
 enum gm_engine { GM_ENGINE_AUTO, GM_ENGINE_INTERPRETED, GM_ENGINE_NATIVE };
 
 /* Chooses for the whole program, before lanes are opened. `kernels`: the folder with core/ode and the
