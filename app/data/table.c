@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* States as CSV: a row per time, a column per number; the lanes one after the other, under one head. */
-#include "app/data/save.h"
-
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/data/format.h"
@@ -86,66 +83,3 @@ static const char *refuse(const struct gm_run *one, const struct gm_run *other)
 
 const struct gm_data_format gm_data_format_csv = {
     .ending = ".csv", .begin = begin, .row = row, .cut = cut, .refuse = refuse};
-
-/* ---- the last state of a field on a line ---- */
-
-/* The quantities of the nodes, the coordinate first; returns their number, 0 if the nodes are not on a
-   line. */
-static size_t list_nodes(const struct gm_run *run, struct gm_quantity chosen[GM_QUANTITIES])
-{
-    struct gm_quantity all[GM_QUANTITIES];
-    const size_t count = gm_quantities(run, all);
-    size_t used = 1;
-    bool on_line = false;
-    for (size_t i = 0; i < count; i++) {
-        if (all[i].support != GM_ON_NODES) {
-            continue;
-        }
-        if (all[i].axis == 0) {
-            chosen[used++] = all[i];
-        } else {
-            chosen[0] = all[i];
-            on_line = all[i].width == 1;
-        }
-    }
-    return on_line ? used : 0;
-}
-
-bool gm_profile_is_there(const struct gm_run *run)
-{
-    struct gm_quantity quantities[GM_QUANTITIES];
-    return list_nodes(run, quantities) > 0;
-}
-
-void gm_profile_columns(const struct gm_run *run, FILE *stream)
-{
-    struct gm_quantity quantities[GM_QUANTITIES];
-    const size_t count = list_nodes(run, quantities);
-    fputc('x', stream);
-    for (size_t i = 1; i < count; i++) {
-        fprintf(stream, ",%s", quantities[i].name);
-    }
-}
-
-bool gm_profile_write(const struct gm_run *run, const char *front, FILE *stream)
-{
-    struct gm_quantity quantities[GM_QUANTITIES];
-    const double *values[GM_QUANTITIES];
-    const size_t count = list_nodes(run, quantities), nodes = quantities[0].count;
-    double *scratch = malloc(count * nodes * sizeof *scratch);
-    if (!scratch) {
-        return false;
-    }
-    for (size_t i = 0; i < count; i++) {
-        values[i] = gm_quantity_values(run, &quantities[i], scratch + i * nodes);
-    }
-    for (size_t k = 0; k < nodes; k++) {
-        fputs(front, stream);
-        for (size_t i = 0; i < count; i++) {
-            fprintf(stream, ",%.17g", values[i][k]);
-        }
-        fputc('\n', stream);
-    }
-    free(scratch);
-    return true;
-}
