@@ -83,9 +83,7 @@ static void recall_system(const struct gm_options *options, char *const *texts)
 /* NAME-again, with `end` after it. */
 static const char *output_name(const struct gm_options *options, const char *end)
 {
-    const char *path = options->arguments.words[0], *slash = strrchr(path, '/');
-    const char *base = slash ? slash + 1 : path;
-    const char *dot = strrchr(base, '.');
+    const char *base = basename(options->arguments.words[0]), *dot = strrchr(base, '.');
     const int length = dot ? (int)(dot - base) : (int)strlen(base);
     return gm_arena_print(options->arena, "%.*s-again%s", length, base, end);
 }
@@ -98,23 +96,17 @@ static const char *print_path(const struct gm_options *options)
                                             output_name(options, end));
 }
 
-/* The command that measures a chart or draws the explorer; NULL if there is none of that name. */
-static const struct gm_command_row *chart_of(const char *name)
-{
-    const struct gm_command_row *command = gm_command_find(name);
-    return command && command->bit & (GM_CHARTS | GM_TUI | GM_TOUR) ? command : NULL;
-}
-
 /* Repeats a chart's measurement: its run times are new. */
 static int chart_again(const struct gm_options *options, const char *command)
 {
     char message[GM_MESSAGE] = "its command is damaged";
     struct gm_arguments *words = gm_arguments_of(options->arena, command);
-    const struct gm_command_row *chart = words->count > 0 ? chart_of(words->words[0]) : NULL;
+    const struct gm_command_row *chart = words->count > 0 ? gm_command_find(words->words[0]) : NULL;
     /* the chart's command may leave by the arena */
     struct gm_options *again = gm_arena_take(options->arena, 1, sizeof *again);
     gm_arena_keep(options->arena, again, gm_options_close);
-    if (chart && gm_options_parse(again, chart->bit, words->count, words->words, 1, message)) {
+    if (chart && chart->bit & (GM_CHARTS | GM_TUI | GM_TOUR) &&
+        gm_options_parse(again, chart->bit, words->count, words->words, 1, message)) {
         again->out = options->out || options->output ? options->out : ".";
         again->output = options->output;
         again->format = options->format;

@@ -308,7 +308,8 @@ static void offer_formulas(const char *word, const char *system, const struct gm
         return; /* it has its lines in the file alone */
     }
     const bool known = scene && gm_typed_file_formulas(scene->text, &formulas);
-    for (const char *const *key = gm_system_keys(system); *key; key++) {
+    const bool typed = strcmp(system, gm_system_typed) == 0;
+    for (const char *const *key = typed ? gm_typed_keys : gm_replacing_keys; *key; key++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "%s=", *key);
         if (!known || gm_arguments_have(&formulas, assignment)) {

@@ -26,20 +26,15 @@
 
 enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };
 
-struct worker {
-    pid_t process; /* 0: idle */
-    size_t job;
-};
-
 struct series {
     const struct gm_options *options;
     struct gm_figure_output output;
     struct gm_figure *user; /* user-defined systems, one per word */
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes;             /* shared with the workers */
-    size_t most, count, next, made, printed; /* `most`: the length of both lists */
-    struct worker workers[MOST_WORKERS];
-    size_t worker_count;
+    pid_t *workers;                          /* the process of a job; 0: it does not run */
+    size_t most, count, next, made, printed; /* `most`: the length of these lists */
+    size_t running, most_running;
     double started, page_written;
     bool progress;
 };
@@ -129,7 +124,8 @@ static struct series *open_series(const struct gm_options *options)
                    .format = options->format,
                    .quick = options->quick},
         .user = gm_arena_take(options->arena, (size_t)options->arguments.count + 1, sizeof *series->user),
-        .jobs = gm_arena_take(options->arena, most, sizeof *series->jobs)};
+        .jobs = gm_arena_take(options->arena, most, sizeof *series->jobs),
+        .workers = gm_arena_take(options->arena, most, sizeof *series->workers)};
     if (options->quick && !options->sized) {
         series->output.look.width = QUICK_WIDTH;
         series->output.look.height = QUICK_HEIGHT;
@@ -147,7 +143,7 @@ static struct series *open_series(const struct gm_options *options)
     plan_user_figures(series, &options->arguments);
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
     const size_t cores = gm_pool_cores();
-    series->worker_count = cores > MOST_WORKERS ? MOST_WORKERS : cores;
+    series->most_running = cores > MOST_WORKERS ? MOST_WORKERS : cores;
     series->progress = isatty(STDERR_FILENO);
     series->started = series->page_written = gm_clock_seconds();
     return series;
@@ -305,7 +301,7 @@ static void take_end(struct series *series, size_t job, int end)
     }
 }
 
-static void start(struct series *series, struct worker *worker)
+static void start(struct series *series)
 {
     const size_t job = series->next++;
     struct gm_outcome *outcome = &series->outcomes[job];
@@ -327,7 +323,8 @@ static void start(struct series *series, struct worker *worker)
         take_end(series, job, 0);
         return;
     }
-    *worker = (struct worker){process, job};
+    series->workers[job] = process;
+    series->running++;
 }
 
 /* Waits until a worker ends, and passes interruptions on. Returns false when all are idle. */
@@ -337,18 +334,19 @@ static bool wait_for_one(struct series *series)
     pid_t process;
     for (bool told = false; (process = waitpid(-1, &end, WNOHANG)) == 0;) {
         const bool interrupted = gm_interrupted; /* it may change during the loop */
-        for (size_t i = 0; i < series->worker_count && interrupted && !told; i++) {
-            if (series->workers[i].process) {
-                kill(series->workers[i].process, SIGTERM);
+        for (size_t i = 0; i < series->count && interrupted && !told; i++) {
+            if (series->workers[i]) {
+                kill(series->workers[i], SIGTERM);
             }
         }
         told = interrupted;
         nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
     }
-    for (size_t i = 0; i < series->worker_count && process > 0; i++) {
-        if (series->workers[i].process == process) {
-            series->workers[i].process = 0;
-            take_end(series, series->workers[i].job, end);
+    for (size_t i = 0; i < series->count && process > 0; i++) {
+        if (series->workers[i] == process) {
+            series->workers[i] = 0;
+            series->running--;
+            take_end(series, i, end);
         }
     }
     return process > 0;
@@ -358,10 +356,8 @@ static void run(struct series *series, int *status)
 {
     const double page_seconds = 10;
     do {
-        for (size_t i = 0; i < series->worker_count && !gm_interrupted; i++) {
-            while (!series->workers[i].process && series->next < series->count) {
-                start(series, &series->workers[i]);
-            }
+        while (series->running < series->most_running && series->next < series->count && !gm_interrupted) {
+            start(series);
         }
         print_finished(series);
         show_progress(series);

@@ -123,20 +123,15 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
 /* The meanings of the letters of claims, for all claims that these schemes make. */
 static void print_legend(const struct gm_scheme *const *schemes, size_t count)
 {
-    char text[512] = "claims:";
+    char text[512] = "claims: ";
     unsigned claims = 0;
     for (size_t i = 0; i < count; i++) {
         claims |= schemes[i]->claims;
     }
-    const char *comma = " ";
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (claims >> bit & 1) {
-            gm_append(text, sizeof text, "%s%s %s", comma, gm_claims[bit].letter, gm_claims[bit].word);
-            comma = ", ";
-        }
-    }
+    const size_t before = strlen(text);
+    gm_catalogue_claims(claims, true, text + before, sizeof text - before);
     printf("\n");
-    gm_print_wrapped(claims ? text : "claims: none", 0, 8);
+    gm_print_wrapped(text, 0, 8);
 }
 
 /* The page of a scheme and of all that have its name, for other kinds of problems; NULL: a list of all schemes. */

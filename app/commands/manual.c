@@ -96,10 +96,9 @@ static void put_scenes(void)
 
 static void put_claims(void)
 {
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        printf("%s %s ", bit ? "," : "", gm_claims[bit].letter);
-        put(gm_claims[bit].word);
-    }
+    char text[512];
+    putchar(' ');
+    put(gm_catalogue_claims((1U << GM_CLAIM_COUNT) - 1, true, text, sizeof text));
 }
 
 static void put_schemes(void)

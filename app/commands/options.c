@@ -30,9 +30,8 @@ enum kind {
     SCALE,
     DPI,
     SIZE,
-    THEME,
+    CHOICE,
     SHARD,
-    ENGINE,
     WORD
 };
 
@@ -83,7 +82,7 @@ const struct gm_option gm_option_rows[] = {
     {"--size", SIZE, PAINTS, AT(look.width), "WxH", "pixels (1280x720), or lengths: 16x9cm, 160x90mm"},
     {"--dpi", DPI, PAINTS, AT(look.dpi), "N", "pixels per inch (96; 300 for a size in lengths)"},
     {"--scale", SCALE, PAINTS, AT(look.scale), "S", "letters and lines S times as large (1)"},
-    {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
+    {"--theme", CHOICE, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST",
      "LANE:STEP:KEY=VALUE,...: changes during the run (key y)"},
@@ -116,7 +115,7 @@ const struct gm_option gm_option_rows[] = {
     {"--shard", SHARD, GM_RENDER, AT(pace.shard), "I/N", "only the I-th of N shards of the frames"},
     {"--shard", SHARD, GM_SWEEP, AT(pace.shard), "I/N",
      "only the I-th of N shards of the runs, in its own table"},
-    {"--engine", ENGINE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
+    {"--engine", CHOICE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
      "auto|interpreted|native", "what advances user-defined systems (auto: compiled code, if it is faster)"},
     {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove the compiled code"},
     {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
@@ -173,6 +172,23 @@ static bool store_number(char *place, const struct gm_option *row, const char *v
     const long integer = whole ? (long)number : 0;
     memcpy(place, whole ? (const void *)&integer : &number, sizeof number);
     return true;
+}
+
+/* Stores the number of a value among those that the option has, "auto|interpreted|native". */
+static bool store_choice(char *place, const struct gm_option *row, const char *value, char *message)
+{
+    int number = 0;
+    char what[128] = "is none of: ";
+    for (const char *word = row->value; *word; number++) {
+        const size_t length = strcspn(word, "|");
+        if (strlen(value) == length && strncmp(word, value, length) == 0) {
+            memcpy(place, &number, sizeof number);
+            return true;
+        }
+        gm_append(what, sizeof what, "%s%.*s", number > 0 ? ", " : "", (int)length, word);
+        word += length + (word[length] == '|');
+    }
+    return refuse(message, row->name, value, what);
 }
 
 static bool read_shard(const char *value, struct gm_options *options)
@@ -277,13 +293,8 @@ static bool store(struct gm_options *options, const struct gm_option *row, const
     case SHARD:
         return read_shard(value, options) ||
                refuse(message, row->name, value, "is not I/N, the I-th of N shards, with I from 1 to N");
-    case ENGINE:
-        return gm_engine_named(value, &options->engine) ||
-               refuse(message, row->name, value, "is none of: auto, interpreted, native");
-    case THEME:
-        options->look.theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
-        return strcmp(value, "dark") == 0 || strcmp(value, "light") == 0 ||
-               refuse(message, row->name, value, "is none of: light, dark");
+    case CHOICE:
+        return store_choice(place, row, value, message);
     case TITLE:
         wrong = gm_text_is_plain(value) ? NULL : "has characters that are not shown";
         value = wrong ? "" : value;
@@ -359,9 +370,8 @@ static void refuse_option(char *message, const char *word, const char *next, con
 /* The folder of a path, and its name there; false: the folder is missing. */
 static bool find_folder(const char *path, struct stat *folder, const char **name)
 {
-    const char *slash = strrchr(path, '/');
     char text[4096];
-    *name = slash ? slash + 1 : path;
+    *name = basename(path);
     snprintf(text, sizeof text, "%.*s.", (int)(*name - path), path);
     return stat(text, folder) == 0;
 }

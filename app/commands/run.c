@@ -301,33 +301,20 @@ static bool differs(const struct gm_request *request, const struct gm_parameter 
     return false;
 }
 
-/* A parameter's value as a cell of CSV: a number as such, not as "pi/12". */
-static void put_cell(FILE *stream, const struct gm_parameter *row, const void *owner)
-{
-    char text[GM_TEXT_SIZE];
-    if (row->type == GM_REAL || row->type == GM_INTEGER) {
-        fprintf(stream, ",%.17g", gm_parameter_get(row, owner));
-        return;
-    }
-    gm_parameter_format(row, owner, text, sizeof text);
-    fputc(',', stream);
-    gm_csv_put_text(stream, text);
-}
-
-/* The front of every CSV row of a lane, or, without a lane, the names of these columns; malloc'ed. Returns
-   NULL when out of memory. */
-static char *front_of(const struct gm_request *request, const struct gm_lane *lane, size_t index)
+/* The front of every CSV row of a lane or, as a head, the names of its columns; malloc'ed. Returns NULL when out of
+   memory. */
+static char *front_of(const struct gm_request *request, size_t lane, enum gm_row_form form)
 {
     char *text = NULL;
     size_t size = 0;
+    const struct gm_lane_spec *spec = &request->lanes[lane];
     FILE *stream = open_memstream(&text, &size);
     if (!stream) {
         return NULL;
     }
-    fprintf(stream, lane ? "%s,%zu," : "scene,lane,scheme", request->scene->name, index);
-    if (lane) {
-        gm_csv_put_text(stream, lane->scheme->name);
-    }
+    struct gm_row cells = {.stream = stream, .form = form};
+    gm_row_put(&cells, "scene %s, lane %.0f, scheme %s", request->scene->name, (double)lane,
+               spec->scheme->name);
     for (size_t own = 2; own-- > 0;) {
         const struct gm_parameter *rows = own ? request->scene->parameters : gm_settings_parameters;
         const size_t count = own ? request->scene->parameter_count : gm_settings_parameter_count;
@@ -335,12 +322,10 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
             if (!differs(request, &rows[i], own)) {
                 continue;
             }
-            if (!lane) {
-                fprintf(stream, ",%s", rows[i].key);
-            } else if (own || gm_scheme_takes(lane->scheme, &rows[i])) {
-                put_cell(stream, &rows[i], own ? lane->parameters : &lane->settings);
+            if (own || gm_scheme_takes(spec->scheme, &rows[i])) {
+                gm_meta_parameter(&cells, &rows[i], own ? spec->parameters : (const void *)&spec->settings);
             } else {
-                fputc(',', stream);
+                gm_row_number(&cells, rows[i].key, NAN, 17); /* an empty cell */
             }
         }
     }
@@ -670,7 +655,7 @@ static FILE *open_csv(const char *path, const struct gm_request *request, const 
     if (!csv) {
         return NULL;
     }
-    char *names = front_of(request, NULL, 0);
+    char *names = front_of(request, 0, GM_ROW_HEAD);
     if (!names) { /* rows need their head */
         gm_refuse(message, "not enough memory");
         close_csv(csv, 0);
@@ -694,7 +679,7 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     if (!stream) {
         return false;
     }
-    char *names = front_of(outcome->drive.request, NULL, 0), *front = NULL;
+    char *names = front_of(outcome->drive.request, 0, GM_ROW_HEAD), *front = NULL;
     bool told = names && asprintf(&front, "%s,%.17g", outcome->front, lane->run->t) >= 0;
     if (told && first) {
         fprintf(stream, "%s,t,", names);
@@ -855,7 +840,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
                   .request = request,
                   .index = index,
                   .whole_steps = gm_chosen_follows_steps(&outputs->chosen, request->scene)},
-        .front = lane ? front_of(request, lane, index) : NULL,
+        .front = lane ? front_of(request, index, GM_ROW_CSV) : NULL,
         .values = malloc(2 * observables * sizeof(double)),
         .outputs = outputs};
     int status = GM_EXIT_OK;

@@ -56,6 +56,13 @@ static size_t kind_of(const struct gm_user_system *system)
 
 enum { MOST_EQUATIONS = 40 }; /* the largest number of printed equations; --json has them all */
 
+/* A line of the report, LEFT = formula. */
+struct equation {
+    enum section { ENERGY, FORM, LET, RATE, CONSTRAINT } section;
+    const char *left;
+    gm_node_id node;
+};
+
 struct report {
     struct gm_arena *arena; /* owns the report's texts */
     struct gm_user_system system;
@@ -65,6 +72,8 @@ struct report {
     struct gm_user_form form;
     struct gm_user_wave wave;
     struct gm_problem problem; /* set up with the file's values; not opened if no scheme can advance it */
+    struct equation *equations;
+    size_t equation_count;
 };
 
 /* The text of a formula; a note for one that is too long to read; -0, a derivative of 0, as 0. */
@@ -139,34 +148,74 @@ static const char *name_row(const struct report *report, size_t row, bool latex)
     return left[0] ? left : "0";
 }
 
-/* The left side of equation number i, and the node of its right one; GM_NO_NODE: it has none. */
-static gm_node_id equation_of(const struct report *report, size_t i, bool latex, const char **left)
+/* The left side of the equation of rate number i. */
+static const char *left_of(const struct report *report, size_t i, bool latex)
 {
     const struct gm_user_system *system = &report->system;
-    const size_t half = system->n / 2;
-    const bool momentum = system->kind == GM_LAGRANGIAN && i < half;
+    const bool momentum = system->kind == GM_LAGRANGIAN && i < system->n / 2;
     if (system->kind == GM_MATRICES) {
-        *left = name_row(report, i, latex);
-    } else if (system->kind == GM_EVOLUTION) {
-        *left = name_rate(report, i, latex);
-    } else if (system->kind == GM_FIELD) { /* the first equation of a field only states u_t = u_t */
-        const char *name = name_of(report, system->variables[0].name, latex);
-        *left = gm_arena_print(report->arena,
-                               latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
-                               name, name);
-    } else {
-        *left = gm_arena_print(report->arena,
-                               momentum ? "%.60s"
-                               : latex  ? "\\dot{%.60s}"
-                                        : "%.60s'",
-                               name_of(report, system->variables[momentum ? half + i : i].name, latex));
+        return name_row(report, i, latex);
     }
-    return momentum ? system->momenta[i] : system->rates[i];
+    if (system->kind == GM_EVOLUTION) {
+        return name_rate(report, i, latex);
+    }
+    if (system->kind == GM_FIELD) {
+        const char *name = name_of(report, system->variables[0].name, latex);
+        return gm_arena_print(report->arena,
+                              latex ? "\\partial_t^2 %.60s - \\partial_x^2 %.60s" : "%.60s_tt - %.60s_xx",
+                              name, name);
+    }
+    return gm_arena_print(report->arena,
+                          momentum ? "%.60s"
+                          : latex  ? "\\dot{%.60s}"
+                                   : "%.60s'",
+                          name_of(report, system->variables[momentum ? system->n / 2 + i : i].name, latex));
 }
 
-static size_t first_equation(const struct gm_user_system *system)
+static void add_equation(struct report *report, enum section section, const char *left, gm_node_id node)
 {
-    return system->alone ? system->n : system->kind == GM_FIELD;
+    report->equations = gm_arena_resize(report->arena, report->equations, report->equation_count + 1,
+                                        sizeof *report->equations);
+    report->equations[report->equation_count++] = (struct equation){section, left, node};
+}
+
+/* Adds the lines of the items with this word, each with its name or a 0 on the left. */
+static void add_items(struct report *report, int word, enum section section, bool latex)
+{
+    for (size_t i = 0; i < report->system.item_count; i++) {
+        const struct gm_system_item *item = &report->system.items[i];
+        if ((int)item->word == word) {
+            add_equation(report, section, section == LET ? name_of(report, item->name, latex) : "0",
+                         item->nodes[0]);
+        }
+    }
+}
+
+/* Makes the list of all lines: what text, JSON and LaTeX print. */
+static void list_equations(struct report *report, bool latex)
+{
+    const struct gm_user_system *system = &report->system;
+    const char *energy = kinds[kind_of(system)].energy;
+    if (energy[0]) {
+        add_equation(report, ENERGY, energy, system->energy);
+    }
+    for (size_t i = 0; i < system->n && system->theta; i++) { /* the form of a degenerate Lagrangian */
+        const char *name = name_of(report, system->variables[i].name, latex);
+        add_equation(report, FORM,
+                     gm_arena_print(report->arena, latex ? "\\theta_{%.60s}" : "theta_%.60s", name),
+                     system->theta[i]);
+    }
+    if (system->theta && gm_system_naming(system).part(system->pfaffian, system)) {
+        add_equation(report, FORM, latex ? "\\mathrm{Pf}\\,\\Omega" : "Pf", system->pfaffian);
+    }
+    add_items(report, GM_WORD_LET, LET, latex);
+    /* the first equation of a field only states u_t = u_t */
+    for (size_t i = system->kind == GM_FIELD; i < system->n && !system->alone; i++) {
+        const bool momentum = system->kind == GM_LAGRANGIAN && i < system->n / 2;
+        add_equation(report, RATE, left_of(report, i, latex),
+                     momentum ? system->momenta[i] : system->rates[i]);
+    }
+    add_items(report, GM_WORD_CONSTRAINT, CONSTRAINT, latex);
 }
 
 static const char *certainty(enum gm_identity check)
@@ -259,56 +308,23 @@ static void print_parameters(const struct report *report)
     }
 }
 
-/* The left side of row i of the form of a degenerate Lagrangian, theta or what is named of Omega, and its node;
-   GM_NO_NODE behind the last row. */
-static gm_node_id form_of(const struct report *report, size_t i, bool latex, const char **left)
-{
-    const struct gm_user_system *system = &report->system;
-    if (system->theta && i < system->n) {
-        *left = gm_arena_print(report->arena, latex ? "\\theta_{%.60s}" : "theta_%.60s",
-                               name_of(report, system->variables[i].name, latex));
-        return system->theta[i];
-    }
-    *left = latex ? "\\mathrm{Pf}\\,\\Omega" : "Pf";
-    return system->theta && i == system->n && gm_system_naming(system).part(system->pfaffian, system)
-               ? system->pfaffian
-               : GM_NO_NODE;
-}
-
 static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
-    const char *name;
-    gm_node_id part;
     printf("\nequations\n");
     if (system->alone) {
         gm_print_wrapped(system->texts[GM_WORD_CELL], printf("  cell = "), 6);
     }
-    if (kinds[kind_of(system)].energy[0]) {
-        print_equation(report, kinds[kind_of(system)].energy, system->energy);
-    }
-    for (size_t i = 0; (part = form_of(report, i, false, &name)) != GM_NO_NODE; i++) {
-        print_equation(report, name, part);
-    }
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_LET) {
-            print_equation(report, system->items[i].name, system->items[i].nodes[0]);
+    for (size_t i = 0, k = 0; i < report->equation_count; i++, k++) {
+        const struct equation *line = &report->equations[i];
+        k = i > 0 && line[-1].section == line->section ? k : 0; /* its number in its section */
+        if (k == MOST_EQUATIONS && line->section == RATE) {
+            printf("  and %zu more\n", system->n - k);
+        } else if (k == 0 && line->section == CONSTRAINT) {
+            printf("\nconstraints, whose forces act on the momenta beside these rates\n");
         }
-    }
-    for (size_t i = first_equation(system); i < system->n; i++) {
-        if (i == MOST_EQUATIONS) {
-            printf("  and %zu more\n", system->n - i);
-            break;
-        }
-        const char *left;
-        const gm_node_id node = equation_of(report, i, false, &left);
-        print_equation(report, left, node);
-    }
-    for (size_t i = 0, k = 1; i < system->item_count && k <= MOST_EQUATIONS; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            printf("%s", k == 1 ? "\nconstraints, whose forces act on the momenta beside these rates\n" : "");
-            print_equation(report, "0", system->items[i].nodes[0]);
-            k++;
+        if (k < MOST_EQUATIONS || line->section < RATE) {
+            print_equation(report, line->left, line->node);
         }
     }
     for (size_t i = 0, k = 1; i < system->item_count && k <= MOST_EQUATIONS; i++) {
@@ -524,35 +540,31 @@ static void put_values(struct gm_row *row, const struct report *report)
     gm_row_close(&starts);
 }
 
+/* Puts the lines of a section, with their left sides in an object. */
+static void put_section(struct gm_row *row, const char *key, const struct report *report,
+                        enum section section)
+{
+    struct gm_row list = gm_row_open(row, key, section == CONSTRAINT ? ']' : '}');
+    if (section == RATE && report->system.alone) {
+        gm_row_text(&list, "cell", report->system.texts[GM_WORD_CELL]);
+    }
+    for (size_t i = 0; i < report->equation_count; i++) {
+        const struct equation *line = &report->equations[i];
+        if (line->section == section) {
+            put_formula(&list, section == CONSTRAINT ? NULL : line->left, report, line->node);
+        }
+    }
+    gm_row_close(&list);
+}
+
 static void put_equations(struct gm_row *row, const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
-    struct gm_row equations = gm_row_open(row, "equations", '}');
-    if (system->alone) {
-        gm_row_text(&equations, "cell", system->texts[GM_WORD_CELL]);
-    }
-    for (size_t i = first_equation(system); i < system->n; i++) {
-        const char *name;
-        const gm_node_id node = equation_of(report, i, false, &name);
-        put_formula(&equations, name, report, node);
-    }
-    gm_row_close(&equations);
+    put_section(row, "equations", report, RATE);
     if (system->theta) {
-        const char *left;
-        gm_node_id part;
-        struct gm_row form = gm_row_open(row, "form", '}');
-        for (size_t i = 0; (part = form_of(report, i, false, &left)) != GM_NO_NODE; i++) {
-            put_formula(&form, left, report, part);
-        }
-        gm_row_close(&form);
+        put_section(row, "form", report, FORM);
     }
-    struct gm_row constraints = gm_row_open(row, "constraints", ']');
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            put_formula(&constraints, NULL, report, system->items[i].nodes[0]);
-        }
-    }
-    gm_row_close(&constraints);
+    put_section(row, "constraints", report, CONSTRAINT);
     struct gm_row invariants = gm_row_open(row, "invariants", '}');
     for (size_t i = 0; i < system->item_count; i++) {
         if (is_kept(&system->items[i])) {
@@ -643,33 +655,14 @@ static void print_forces(struct report *report, size_t coordinate)
 
 static void print_latex(struct report *report)
 {
-    const struct gm_user_system *system = &report->system;
-    const size_t half = system->n / 2;
+    const size_t half = report->system.n / 2;
     printf("\\begin{align}\n");
-    if (kinds[kind_of(system)].energy[0]) {
-        printf("  %s &= %s \\\\\n", kinds[kind_of(system)].energy, formula_of(report, system->energy, true));
-    }
-    const char *name;
-    gm_node_id part;
-    for (size_t i = 0; (part = form_of(report, i, true, &name)) != GM_NO_NODE; i++) {
-        printf("  %s &= %s \\\\\n", name, formula_of(report, part, true));
-    }
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_LET) {
-            printf("  %s &= %s \\\\\n", name_of(report, system->items[i].name, true),
-                   formula_of(report, system->items[i].nodes[0], true));
-        }
-    }
-    for (size_t i = first_equation(system); i < system->n; i++) {
-        const char *left, *right = formula_of(report, equation_of(report, i, true, &left), true);
-        printf("%s  %s &= %s", i > first_equation(system) ? " \\\\\n" : "", left, right);
-        if (i >= half && !gm_system_is_field(system)) {
-            print_forces(report, i - half);
-        }
-    }
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            printf(" \\\\\n  0 &= %s", formula_of(report, system->items[i].nodes[0], true));
+    for (size_t i = 0, rate = 0; i < report->equation_count; i++) {
+        const struct equation *line = &report->equations[i];
+        printf("%s  %s &= %s", i > 0 ? " \\\\\n" : "", line->left, formula_of(report, line->node, true));
+        rate += line->section == RATE;
+        if (line->section == RATE && rate > half && !gm_system_is_field(&report->system)) {
+            print_forces(report, rate - 1 - half);
         }
     }
     printf("\n\\end{align}\n");
@@ -1071,6 +1064,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
     /* a check without memory does not count as unchecked */
     gm_arena_need(options->arena, opened && !gm_memory_was_short());
     tidy_all(report);
+    list_equations(report, options->latex);
     if (options->json) {
         print_json(report, file);
     } else if (options->latex) {

@@ -6,6 +6,16 @@
 
 #include "app/output/row.h"
 
+void gm_meta_parameter(struct gm_row *row, const struct gm_parameter *parameter, const void *owner)
+{
+    char text[GM_TEXT_SIZE];
+    if (parameter->type == GM_REAL || parameter->type == GM_INTEGER) {
+        gm_row_number(row, parameter->key, gm_parameter_get(parameter, owner), 17);
+    } else {
+        gm_row_text(row, parameter->key, gm_parameter_format(parameter, owner, text, sizeof text));
+    }
+}
+
 void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane)
 {
     const struct gm_scene *scene = lane->scene;
@@ -13,14 +23,8 @@ void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane)
     struct gm_row parameters = gm_row_open(row, "parameters", '}');
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *parameter = &scene->parameters[i];
-        if (gm_scene_idle(scene, lane->parameters, parameter->key)) {
-            continue;
-        }
-        if (parameter->type == GM_REAL || parameter->type == GM_INTEGER) {
-            gm_row_number(&parameters, parameter->key, gm_parameter_get(parameter, lane->parameters), 17);
-        } else {
-            gm_row_text(&parameters, parameter->key,
-                        gm_parameter_format(parameter, lane->parameters, text, sizeof text));
+        if (!gm_scene_idle(scene, lane->parameters, parameter->key)) {
+            gm_meta_parameter(&parameters, parameter, lane->parameters);
         }
     }
     for (const struct gm_parameter *const *set = lane->scheme->family->parameters; set && *set; set++) {

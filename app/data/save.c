@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -31,9 +32,8 @@ enum { FORMATS = GM_COUNT(formats) };
 
 static const struct gm_data_format *format_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
     for (size_t i = 0; i < FORMATS; i++) {
-        if (gm_word_ends(slash ? slash + 1 : path, formats[i]->ending)) {
+        if (gm_word_ends(basename(path), formats[i]->ending)) {
             return formats[i];
         }
     }
@@ -353,4 +353,129 @@ bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message
     free(save->saving.folder);
     free(save);
     return whole;
+}
+
+/* ---- the choice of the steps that have a row ---- */
+
+/* Returns true if rows follow the time, and not every step has one. */
+static bool is_by_time(const struct gm_rows *rows, const struct gm_run *run)
+{
+    return rows->every == 0 && !isnan(rows->interval) &&
+           (run->scheme->family->adaptive || rows->interval > fabs(run->dt));
+}
+
+/* The step next to the first multiple of the interval whose step is not before `step`. */
+static double step_from(const struct gm_rows *rows, const struct gm_run *run, double step)
+{
+    const double steps = rows->interval / fabs(run->dt); /* more than 1 */
+    double k = fmax(0, ceil((step - 0.5) / steps) - 1);
+    while (round(k * steps) < step) {
+        k++;
+    }
+    return round(k * steps);
+}
+
+bool gm_rows_all(const struct gm_rows *rows, const struct gm_run *run)
+{
+    return !is_by_time(rows, run) && rows->every < 2;
+}
+
+int64_t gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
+{
+    const int64_t next = run->steps + 1, far = INT64_C(1) << 40;
+    if (!is_by_time(rows, run)) {
+        return rows->every < 2 ? next : run->steps - run->steps % rows->every + rows->every;
+    }
+    if (run->scheme->family->adaptive) {
+        return next;
+    }
+    return (int64_t)fmin(step_from(rows, run, (double)next), (double)(next + far));
+}
+
+bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before)
+{
+    if (!is_by_time(rows, run)) {
+        return rows->every < 2 || run->steps % rows->every == 0;
+    }
+    if (run->scheme->family->adaptive) {
+        return floor(run->t / rows->interval) != floor(before / rows->interval);
+    }
+    return step_from(rows, run, (double)run->steps) == (double)run->steps;
+}
+
+uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, int64_t last)
+{
+    if (run->scheme->family->adaptive || last < 0) {
+        return 0;
+    }
+    if (!is_by_time(rows, run)) {
+        const int64_t every = rows->every < 2 ? 1 : rows->every;
+        return (uint64_t)(last / every) + (last % every != 0) + 1;
+    }
+    const double steps = rows->interval / fabs(run->dt), most = (double)(1L << 50);
+    const double k = fmin(floor(((double)last + 0.5) / steps), most);
+    return (uint64_t)k + (round(k * steps) != (double)last) + 1;
+}
+
+/* ---- the state of a field on a line, as CSV ---- */
+
+/* The quantities of the nodes, the coordinate first; returns their number, 0 if the nodes are not on a
+   line. */
+static size_t list_nodes(const struct gm_run *run, struct gm_quantity chosen[GM_QUANTITIES])
+{
+    struct gm_quantity all[GM_QUANTITIES];
+    const size_t count = gm_quantities(run, all);
+    size_t used = 1;
+    bool on_line = false;
+    for (size_t i = 0; i < count; i++) {
+        if (all[i].support != GM_ON_NODES) {
+            continue;
+        }
+        if (all[i].axis == 0) {
+            chosen[used++] = all[i];
+        } else {
+            chosen[0] = all[i];
+            on_line = all[i].width == 1;
+        }
+    }
+    return on_line ? used : 0;
+}
+
+bool gm_profile_is_there(const struct gm_run *run)
+{
+    struct gm_quantity quantities[GM_QUANTITIES];
+    return list_nodes(run, quantities) > 0;
+}
+
+void gm_profile_columns(const struct gm_run *run, FILE *stream)
+{
+    struct gm_quantity quantities[GM_QUANTITIES];
+    const size_t count = list_nodes(run, quantities);
+    fputc('x', stream);
+    for (size_t i = 1; i < count; i++) {
+        fprintf(stream, ",%s", quantities[i].name);
+    }
+}
+
+bool gm_profile_write(const struct gm_run *run, const char *front, FILE *stream)
+{
+    struct gm_quantity quantities[GM_QUANTITIES];
+    const double *values[GM_QUANTITIES];
+    const size_t count = list_nodes(run, quantities), nodes = quantities[0].count;
+    double *scratch = malloc(count * nodes * sizeof *scratch);
+    if (!scratch) {
+        return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        values[i] = gm_quantity_values(run, &quantities[i], scratch + i * nodes);
+    }
+    for (size_t k = 0; k < nodes; k++) {
+        fputs(front, stream);
+        for (size_t i = 0; i < count; i++) {
+            fprintf(stream, ",%.17g", values[i][k]);
+        }
+        fputc('\n', stream);
+    }
+    free(scratch);
+    return true;
 }

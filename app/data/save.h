@@ -80,6 +80,9 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
 
 /* The description of a run, as JSON. */
 
+/* A parameter as a cell: a number as such, not as "pi/12". */
+void gm_meta_parameter(struct gm_row *row, const struct gm_parameter *parameter, const void *owner);
+
 /* "parameters":{"key":value,...}: every parameter of the lane, those at their defaults too, and of its scheme. */
 void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane);
 

@@ -334,6 +334,12 @@ static void begin(const struct gm_saving *saving, struct gm_saved *lane, const s
     gm_column_open(&lane->columns[1]);
 }
 
+/* The length of the folder's path, which the list leaves out. */
+static size_t front_of(const struct gm_saving *saving)
+{
+    return (size_t)(basename(saving->path) - saving->path);
+}
+
 /* Room for a path and the names below it: a longer one cannot be opened. */
 enum { PATH = 4096 + 128 };
 
@@ -357,9 +363,7 @@ static const struct {
 
 static void row_of_files(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
-    const char *slash = strrchr(saving->path, '/');
-    /* the length of the folder's path, which the list leaves out */
-    const size_t front = slash ? (size_t)(slash + 1 - saving->path) : 0;
+    const size_t front = front_of(saving);
     struct gm_column *lines = &lane->columns[0];
     int parts = 0;
     for (size_t i = 0; i < GM_COUNT(groups) && lane->file.why == 0; i++) {
@@ -478,7 +482,6 @@ static void put_row(struct gm_saved *lane, const struct places *places, double t
 static void row_of_one_file(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     const int first = lane->rows == 0;
-    const char *slash = strrchr(saving->path, '/');
     struct places places;
     char path[PATH];
     find_places(lane, run, &places);
@@ -497,7 +500,7 @@ static void row_of_one_file(const struct gm_saving *saving, struct gm_saved *lan
     }
     end_file(lane, &file);
     if (lane->file.why == 0) {
-        put_row(lane, &places, run->t, path + (slash ? slash + 1 - saving->path : 0));
+        put_row(lane, &places, run->t, path + front_of(saving));
     }
 }
 

@@ -182,23 +182,6 @@ static bool find_file(const char *folder, const struct dirent *file, char path[G
     return lstat(path, about) == 0;
 }
 
-void gm_cache_sweep(const char *folder)
-{
-    char path[GM_CACHE_PATH];
-    struct dirent **files;
-    struct stat about;
-    const time_t now = time(NULL);
-    const int count = list_files(folder, is_other, &files);
-    for (int i = 0; i < count; i++) {
-        if (find_file(folder, files[i], path, &about) && S_ISREG(about.st_mode) &&
-            about.st_mtime + 3600 < now) {
-            unlink(path);
-        }
-        free(files[i]);
-    }
-    free(files);
-}
-
 static int later(const void *a, const void *b)
 {
     const struct gm_cache_entry *one = a, *other = b;
@@ -229,29 +212,46 @@ bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *
     return found >= 0;
 }
 
-bool gm_cache_clear(const char *folder, size_t *count, char *sentence)
+/* Removes the files that a filter chooses, and counts them. A file that is not an entry stays unless it is regular and
+   older than an hour; with `recent` its age does not matter. Returns false with a sentence if a removal fails. */
+static bool remove_files(const char *folder, int (*filter)(const struct dirent *file), bool recent,
+                         size_t *count, char *sentence)
 {
+    enum { HOUR = 3600 };
     char path[GM_CACHE_PATH];
     struct dirent **files;
-    struct stat about;
+    struct stat about = {0};
     bool all = true;
+    const time_t now = time(NULL);
+    const int found = list_files(folder, filter, &files);
     *count = 0;
-    for (int entries = 0; entries < 2; entries++) {
-        const int found = list_files(folder, entries ? is_entry : is_other, &files);
-        for (int i = 0; i < found; i++) {
-            const bool there = find_file(folder, files[i], path, &about);
-            free(files[i]);
-            if (!there || (!entries && !S_ISREG(about.st_mode))) {
-                continue;
-            }
-            /* a folder that is not empty belongs to the user; ENOENT: another process has removed the entry */
-            if (remove(path) == 0) {
-                *count += (size_t)entries;
-            } else if (all && errno != ENOENT) {
-                all = gm_refuse(sentence, "%.400s could not be removed: %s", path, strerror(errno));
-            }
+    for (int i = 0; i < found; i++) {
+        const bool there = find_file(folder, files[i], path, &about);
+        free(files[i]);
+        const bool kept = !S_ISREG(about.st_mode) || (!recent && about.st_mtime + HOUR >= now);
+        if (!there || (filter == is_other && kept)) {
+            continue;
         }
-        free(files);
+        /* a folder that is not empty belongs to the user; ENOENT: another process has removed the entry */
+        if (remove(path) == 0) {
+            ++*count;
+        } else if (all && errno != ENOENT) {
+            all = gm_refuse(sentence, "%.400s could not be removed: %s", path, strerror(errno));
+        }
     }
+    free(files);
     return all;
+}
+
+void gm_cache_sweep(const char *folder)
+{
+    char sentence[GM_MESSAGE];
+    size_t count;
+    remove_files(folder, is_other, false, &count, sentence);
+}
+
+bool gm_cache_clear(const char *folder, size_t *count, char *sentence)
+{
+    const bool others = remove_files(folder, is_other, true, count, sentence);
+    return remove_files(folder, is_entry, true, count, sentence) && others;
 }

@@ -157,23 +157,14 @@ bool gm_compilation_start(struct gm_compilation *compilation, const char *folder
    /proc/PID/stat. Returns false for any other line. */
 static bool read_stat(const char *text, pid_t *group, unsigned long *ticks)
 {
-    enum { GROUP = 2, FIRST_TIME = 11, LAST_TIME = 14 };
-    const char *at = strrchr(text, ')'); /* a name may hold anything */
-    char *end = NULL;
-    *ticks = 0;
-    if (!at || at[1] != ' ' || !at[2]) {
-        return false;
-    }
-    at += 3; /* after the letter of the state, which is number 0 */
-    for (int k = 1; k <= LAST_TIME; k++, at = end) {
-        const long number = strtol(at, &end, 10);
-        if (end == at) {
-            return false;
-        }
-        *group = k == GROUP ? (pid_t)number : *group;
-        *ticks += k >= FIRST_TIME ? (unsigned long)number : 0;
-    }
-    return true;
+    const char *name_end = strrchr(text, ')'); /* a name may hold anything */
+    unsigned long times[4] = {0};
+    const int read = name_end
+                         ? sscanf(name_end, ") %*c %*d %d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %lu %lu",
+                                  group, &times[0], &times[1], &times[2], &times[3])
+                         : 0;
+    *ticks = times[0] + times[1] + times[2] + times[3];
+    return read == 5;
 }
 
 /* The CPU time of all processes of a group, in ticks; 0 if it is unavailable. */
@@ -218,8 +209,7 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
     if (fstat(compilation->complaints, &complaints) == 0 && complaints.st_size > MOST_COMPLAINTS) {
         char line[200];
         first_line(compilation, line, sizeof line);
-        gm_refuse(sentence, "the compiler complained without end: %s", line);
-        return true;
+        return !gm_refuse(sentence, "the compiler complained without end: %s", line);
     }
     if (now < compilation->seen + most) {
         return false;
@@ -228,17 +218,12 @@ static bool is_overdue(struct gm_compilation *compilation, char *sentence)
     compilation->seen = now;
     compilation->ticks = ticks;
     if ((double)ticks > most * (double)sysconf(_SC_CLK_TCK)) {
-        gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most);
-        return true;
+        return !gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most);
     }
     if (now > compilation->begin + LONGEST * most) {
-        gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
-        return true;
+        return !gm_refuse(sentence, "the compiler took longer than %.0f seconds", LONGEST * most);
     }
-    if (ticks == before) {
-        gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
-    }
-    return ticks == before;
+    return ticks == before && !gm_refuse(sentence, "the compiler hung for %.0f seconds", most);
 }
 
 enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence)

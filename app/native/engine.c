@@ -27,34 +27,7 @@
    subexpressions would take a fifth of the time and find nothing.) Functions of formulas are always the
    library's, except single instructions. */
 static const char *const flags[] = {
-    "-std=c17",
-    "-O3",
-    "-ffp-contract=off",
-    "-fno-math-errno",
-    "-fno-gcse",
-    "-fno-gcse-after-reload",
-    "-fno-builtin-pow",
-    "-fno-builtin-exp",
-    "-fno-builtin-log",
-    "-fno-builtin-sin",
-    "-fno-builtin-cos",
-    "-fno-builtin-tan",
-    "-fno-builtin-asin",
-    "-fno-builtin-acos",
-    "-fno-builtin-atan",
-    "-fno-builtin-atan2",
-    "-fno-builtin-sinh",
-    "-fno-builtin-cosh",
-    "-fno-builtin-tanh",
-    "-fno-builtin-erfc",
-    "-fno-builtin-fmod",
-    "-D_GNU_SOURCE",
-    "-DGM_PROBLEM=user",
-    "-DGM_ISA=native",
-    "-w",
-    "-shared",
-    "-fPIC",
-};
+    GM_NATIVE_FLAGS, "-D_GNU_SOURCE", "-DGM_PROBLEM=user", "-DGM_ISA=native", "-w", "-shared", "-fPIC"};
 static const char *const isa_flags[GM_ISA_COUNT][3] = {
     [GM_ISA_AVX2] = {"-mavx2"},
     [GM_ISA_AVX512] = {"-march=skylake-avx512", "-mno-fma", "-mprefer-vector-width=512"},
@@ -76,7 +49,7 @@ struct part {
     enum gm_isa isa;
 };
 
-enum state { NEW, COMPILING, READY, REFUSED };
+enum state { REFUSED, COMPILING, READY };
 
 /* The loops of one kernel's text. */
 struct build {
@@ -88,7 +61,7 @@ struct build {
     struct gm_compilation compilation;
     struct gm_cache_key key;
     char text_name[80], library_name[80]; /* names of temporary files, while it compiles */
-    char sentence[GM_MESSAGE];            /* the reason if it is refused */
+    char sentence[GM_MESSAGE];            /* the reason, as long as it is refused */
     bool said;
 };
 
@@ -101,18 +74,6 @@ static void (*tell)(const char *sentence);
 static bool (*interrupted)(void);
 static atomic_bool stopping; /* the program ends, and its compilations with it */
 static double spent_in_all;
-
-bool gm_engine_named(const char *word, enum gm_engine *engine)
-{
-    static const char *const words[] = {"auto", "interpreted", "native"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(words[i], word) == 0) {
-            *engine = (enum gm_engine)i;
-            return true;
-        }
-    }
-    return false;
-}
 
 static bool is_written(const struct gm_lane *lane)
 {
@@ -156,13 +117,13 @@ static const char *alone_flag(struct part part)
 
 /* ---- from a kernel's text to loops ---- */
 
-/* Loads the entry of the build's key, if it exists. */
-static void load(struct build *build, const char *folder)
+/* Loads the entry of the build's key. Returns false if it does not exist. */
+static bool load(struct build *build, const char *folder)
 {
     char path[64];
     const int file = gm_cache_find(folder, &build->key);
     if (file < 0) {
-        return;
+        return false;
     }
     /* The path is the checked file's, even if another one has its name now. The file stays open as long as
        it is loaded: the loader identifies libraries by their names. */
@@ -172,11 +133,10 @@ static void load(struct build *build, const char *folder)
     build->loops = library ? dlsym(library, "gm_loops_user_native") : NULL;
     if (build->loops) {
         build->state = READY;
-        return;
+        return true;
     }
     gm_refuse(build->sentence, "what was compiled could not be loaded: %.300s",
               error ? error : "it holds no loops");
-    build->state = REFUSED;
     /* the next start compiles it again; that is useless if nothing can be loaded, as from a folder mounted
        noexec */
     if (!error || !strstr(error, "failed to map segment")) {
@@ -186,6 +146,7 @@ static void load(struct build *build, const char *folder)
         dlclose(library);
     }
     close(file);
+    return true;
 }
 
 static void remove_aside(const char *folder, const struct build *build)
@@ -198,10 +159,10 @@ static void remove_aside(const char *folder, const struct build *build)
     }
 }
 
-static void compile(struct build *build, const char *folder, const char *compiler, const char *text,
-                    struct part part)
+static void compile(struct build *build, const char *folder, const char *compiler, const char *text)
 {
     enum { MOST = GM_COUNT(flags) + 17 };
+    const struct part part = build->part;
     static unsigned number;
     const char *arguments[MOST];
     char kernels[128], source[GM_CACHE_PATH];
@@ -220,7 +181,6 @@ static void compile(struct build *build, const char *folder, const char *compile
     if (!file || fclose(file) != 0 || !written) {
         gm_refuse(build->sentence, "the cache could not be written: %s", strerror(errno));
         remove_aside(folder, build);
-        build->state = REFUSED;
         return;
     }
     arguments[count++] = compiler;
@@ -243,7 +203,6 @@ static void compile(struct build *build, const char *folder, const char *compile
         build->state = COMPILING;
     } else {
         remove_aside(folder, build);
-        build->state = REFUSED;
     }
 }
 
@@ -254,7 +213,7 @@ static void add_word(struct gm_digest *digest, const char *word)
 
 /* The key of the compiled code: the text, this build of the program, the compiler, its flags, the
    processor. */
-static bool find_key(struct build *build, struct part part, char compiler[GM_CACHE_PATH])
+static bool find_key(struct build *build, char compiler[GM_CACHE_PATH])
 {
     struct gm_digest digest = build->source;
     struct stat program;
@@ -268,29 +227,22 @@ static bool find_key(struct build *build, struct part part, char compiler[GM_CAC
         add_word(&digest, flags[i]);
     }
     for (size_t i = 0; i < 3; i++) {
-        add_word(&digest, isa_flags[part.isa][i]);
+        add_word(&digest, isa_flags[build->part.isa][i]);
     }
     const bool found = gm_compiler_find(compiler, &digest);
     build->key = gm_digest_key(&digest);
     return found;
 }
 
-static void begin(struct build *build, const char *text, struct part part)
+static void begin(struct build *build, const char *text)
 {
     char folder[GM_CACHE_PATH], compiler[GM_CACHE_PATH];
     if (!kernel_folder[0]) {
         gm_refuse(build->sentence, "the sources of its loops are not there");
-        build->state = REFUSED;
-    } else if (!find_key(build, part, compiler)) {
+    } else if (!find_key(build, compiler)) {
         gm_refuse(build->sentence, "there is no C compiler (cc, gcc or clang) in PATH");
-        build->state = REFUSED;
-    } else if (!gm_cache_folder(folder, build->sentence)) {
-        build->state = REFUSED;
-    } else {
-        load(build, folder);
-        if (build->state == NEW) {
-            compile(build, folder, compiler, text, part);
-        }
+    } else if (gm_cache_folder(folder, build->sentence) && !load(build, folder)) {
+        compile(build, folder, compiler, text);
     }
 }
 
@@ -301,17 +253,14 @@ static void look(struct build *build)
     if (how == GM_COMPILES) {
         return;
     }
+    build->state = REFUSED; /* unless it can be loaded */
     if (!gm_cache_folder(folder, build->sentence)) {
-        build->state = REFUSED;
         return;
     }
     snprintf(library, sizeof library, "%.3900s/%s", folder, build->library_name);
     if (how == GM_COMPILED && gm_cache_keep(folder, library, &build->key, build->sentence)) {
         gm_refuse(build->sentence, "what was compiled is gone from the cache");
         load(build, folder);
-    }
-    if (build->state == COMPILING) {
-        build->state = REFUSED;
     }
     remove_aside(folder, build);
 }
@@ -345,10 +294,9 @@ static struct build *build_of(const struct gm_lane *lane)
         build->next = builds;
         builds = build;
         if (text) {
-            begin(build, text, part);
+            begin(build, text);
         } else {
             gm_refuse(build->sentence, "%s", lacks);
-            build->state = REFUSED;
         }
     }
     free(text);

@@ -8,10 +8,8 @@
    are compiled from the same formulas by the system's C compiler, once for a system and a family of
    schemes, and cached; a lane takes them between two steps, after a block of steps has agreed bit by bit. */
 
+/* The order is that of the option --engine. */
 enum gm_engine { GM_ENGINE_AUTO, GM_ENGINE_INTERPRETED, GM_ENGINE_NATIVE };
-
-/* Sets the engine of that name; false if it does not exist. */
-bool gm_engine_named(const char *word, enum gm_engine *engine);
 
 /* Chooses for the whole program, before lanes are opened. `kernels`: the folder with core/ode and the
    sources of loops; it is copied. The callback, unless NULL, gets one sentence per reason for which the

@@ -39,7 +39,7 @@ bool gm_format_find(const char *name, enum gm_format *format)
 
 bool gm_format_of(const char *path, enum gm_format *format)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    const char *dot = strrchr(basename(path), '.');
     return dot && gm_format_find(dot + 1, format);
 }
 

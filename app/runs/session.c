@@ -44,7 +44,9 @@ static void thin(struct gm_past *past)
 /* A copy for a fork of the lane; an empty one when out of memory. */
 static struct gm_past copy_past(const struct gm_past *past)
 {
-    struct gm_past copy = {.bound = past->bound, .every = past->every};
+    const struct gm_past empty = {
+        .bound = past->bound, .every = past->every, .gone = past->gone, .from = past->from};
+    struct gm_past copy = empty;
     copy.moments = past->count > 0 ? malloc(MOST_MOMENTS * sizeof *copy.moments) : NULL;
     for (size_t i = 0; copy.moments && i < past->count; i++) {
         struct gm_moment *moment = &copy.moments[i];
@@ -52,7 +54,7 @@ static struct gm_past copy_past(const struct gm_past *past)
         moment->memory = malloc(moment->size);
         if (!moment->memory) {
             close_past(&copy);
-            return (struct gm_past){.bound = past->bound, .every = past->every};
+            return empty;
         }
         memcpy(moment->memory, past->moments[i].memory, moment->size);
         copy.count++;
@@ -227,8 +229,8 @@ double gm_session_next(const struct gm_session *session)
 
 static double lane_gone(const struct gm_session *session, size_t i)
 {
-    const struct gm_course *course = &session->courses[i];
-    return course->gone + fabs(session->lanes[i]->run->t - course->from);
+    const struct gm_past *past = &session->pasts[i];
+    return past->gone + fabs(session->lanes[i]->run->t - past->from);
 }
 
 double gm_session_gone(const struct gm_session *session)
@@ -361,6 +363,13 @@ static struct fresh open_lane(const struct gm_scene *scene, const void *paramete
     return fresh;
 }
 
+/* The lane has passed this model time. */
+static void follow(struct gm_session *session, size_t i, double gone)
+{
+    session->pasts[i].gone = gone;
+    session->pasts[i].from = session->lanes[i]->run->t;
+}
+
 /* The lanes no longer start as they were typed. */
 static void forget_arguments(struct gm_session *session)
 {
@@ -373,8 +382,7 @@ static void place_lane(struct gm_session *session, size_t i, struct fresh fresh,
 {
     session->lanes[i] = fresh.lane;
     gm_lane_show(fresh.lane, shown);
-    session->pasts[i] = (struct gm_past){.every = 1};
-    session->courses[i] = (struct gm_course){.from = fresh.lane->t0};
+    session->pasts[i] = (struct gm_past){.every = 1, .from = fresh.lane->t0};
     session->log.lanes[i] = (struct gm_lane_spec){.shown = *shown,
                                                   .parameters = fresh.start,
                                                   .settings = fresh.lane->settings,
@@ -403,17 +411,16 @@ static void show_in_order(struct gm_session *session)
     forget_arguments(session);
     for (size_t i = 0; i < session->count; i++) {
         struct gm_shown *shown = &session->log.lanes[i].shown;
-        gm_show_in_order(shown, i, session->lanes[i]->first_scheme, session->overlaid);
+        gm_show_in_order(shown, i, session->lanes[i]->first_scheme, session->log.overlay);
         gm_lane_show(session->lanes[i], shown);
     }
-    session->log.overlay = session->overlaid;
 }
 
 /* ---- a session's beginning and end ---- */
 
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message)
 {
-    *session = (struct gm_session){.scene = request->scene, .overlaid = request->overlay};
+    *session = (struct gm_session){.scene = request->scene};
     if (request->count == 0 || request->count > GM_MOST_LANES) {
         return gm_refuse(message, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
                          request->count);
@@ -421,6 +428,7 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
     /* the log has room for every lane, so that later only parameters are allocated */
     session->log = (struct gm_request){.scene = session->scene,
                                        .lanes = calloc(GM_MOST_LANES, sizeof *session->log.lanes),
+                                       .overlay = request->overlay,
                                        .arguments = request->arguments ? strdup(request->arguments) : NULL};
     if (!session->log.lanes || (request->arguments && !session->log.arguments)) {
         gm_request_close(&session->log);
@@ -480,7 +488,6 @@ bool gm_session_restart(struct gm_session *session, char *message)
         forget_arguments(session);
     }
     if (ok) {
-        session->log.overlay = session->overlaid;
         session->visiting = session->turned = false;
         note_lanes(session);
     }
@@ -518,7 +525,7 @@ static bool apply_change(struct gm_session *session, size_t i, const char *text,
         return false;
     }
     if (before * lane->run->dt < 0) {
-        session->courses[i] = (struct gm_course){.gone = gone, .from = lane->run->t};
+        follow(session, i, gone);
     }
     return true;
 }
@@ -676,12 +683,6 @@ static void replay(struct gm_session *session, size_t i, int64_t steps)
     }
 }
 
-/* Notes that the lane was taken to a moment. */
-static void follow(struct gm_session *session, size_t i, const struct gm_moment *moment)
-{
-    session->courses[i] = (struct gm_course){.gone = moment->gone, .from = session->lanes[i]->run->t};
-}
-
 static const char too_large[] = "There is no snapshot to go back to: the ensemble is too large to keep any.";
 
 bool gm_session_back(struct gm_session *session, char *message)
@@ -700,7 +701,7 @@ bool gm_session_back(struct gm_session *session, char *message)
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
-        follow(session, i, moment);
+        follow(session, i, moment->gone);
         cut_log(session, i, steps - 1);
         forget_after(&session->pasts[i], steps - 1);
         replay(session, i, steps - 1);
@@ -751,7 +752,7 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
         if (!moment) {
             return gm_refuse(message, "%s", too_large);
         }
-        follow(session, i, moment);
+        follow(session, i, moment->gone);
     }
     session->visiting = true;
     return true;
@@ -789,8 +790,7 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
     settle(session);
     double ahead = gm_session_gone(session) - fabs(gm_session_time(session) - fresh.lane->t0);
     place_lane(session, session->count, fresh, &(const struct gm_shown){0});
-    session->courses[session->count].gone =
-        fmax(ahead, 0); /* after time was reversed, all have gone further */
+    session->pasts[session->count].gone = fmax(ahead, 0); /* after time was reversed, all have gone further */
     count_lane(session);
     note_lanes(session);
     return true;
@@ -824,7 +824,6 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
         return gm_refuse(message, short_of_memory);
     }
     session->pasts[at] = copy_past(&session->pasts[like]);
-    session->courses[at] = session->courses[like];
     bool ok = copy_log(session, like) || gm_refuse(message, short_of_memory);
     count_lane(session);
     share_budget(session);
@@ -841,7 +840,7 @@ bool gm_session_overlay(struct gm_session *session, char *message)
     if (session->count == 1) {
         return gm_refuse(message, "One lane has a panel of its own; c adds another.");
     }
-    session->overlaid = !session->overlaid;
+    session->log.overlay = !session->log.overlay;
     show_in_order(session);
     return true;
 }
@@ -856,7 +855,6 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
     size_t after = session->count - lane - 1;
     memmove(&session->lanes[lane], &session->lanes[lane + 1], after * sizeof *session->lanes);
     memmove(&session->pasts[lane], &session->pasts[lane + 1], after * sizeof *session->pasts);
-    memmove(&session->courses[lane], &session->courses[lane + 1], after * sizeof *session->courses);
     memmove(&session->wanted[lane], &session->wanted[lane + 1], after * sizeof *session->wanted);
     memmove(&session->log.lanes[lane], &session->log.lanes[lane + 1], after * sizeof *session->log.lanes);
     for (size_t k = 0; k < session->log.change_count; k++) {
@@ -866,7 +864,7 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
     }
     session->log.count = --session->count;
     session->log.lanes[session->count] = session->wanted[session->count] = (struct gm_lane_spec){0};
-    session->overlaid = session->overlaid && session->count > 1;
+    session->log.overlay = session->log.overlay && session->count > 1;
     show_in_order(session);
     share_budget(session);
     return true;

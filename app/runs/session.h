@@ -25,13 +25,9 @@ struct gm_moment {
 struct gm_past { /* an empty one is {.every = 1} */
     struct gm_moment *moments;
     size_t count;
-    size_t bound;  /* the largest count */
-    int64_t every; /* steps between snapshots */
-};
-
-/* The model time that a lane has passed in both directions: gone + |t - from|. */
-struct gm_course {
-    double gone, from;
+    size_t bound;      /* the largest count */
+    int64_t every;     /* steps between snapshots */
+    double gone, from; /* the model time that the lane has passed in both directions: gone + |t - from| */
 };
 
 struct gm_session {
@@ -39,12 +35,10 @@ struct gm_session {
     size_t count; /* number of lanes, at least 1 */
     struct gm_lane *lanes[GM_MOST_LANES];
     struct gm_past pasts[GM_MOST_LANES];
-    struct gm_course courses[GM_MOST_LANES];
     /* The parameters for gm_session_restart; NULL without changes. Until then a lane has those with which
        its problem was made. */
     struct gm_lane_spec wanted[GM_MOST_LANES];
     struct gm_request log; /* the lanes' starts, and the changes since */
-    bool overlaid;         /* all lanes in one panel */
     bool visiting;         /* an earlier moment is shown; later ones stay until a lane advances */
     bool turned;           /* time has run backwards since the start */
 };

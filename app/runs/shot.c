@@ -99,7 +99,7 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     shot->reach = gm_session_reach(session);
     shot->backwards = gm_session_direction(session) < 0;
     shot->turned = session->turned;
-    shot->overlaid = session->overlaid;
+    shot->overlaid = session->log.overlay;
     shot->in_space = gm_scene_parameter(session->scene, "azimuth") && !is_idle(session, "azimuth");
     shot->drawn = draw;
     shot->observable_count = session->scene->observable_count;

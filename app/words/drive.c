@@ -285,6 +285,18 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
 
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
 {
+    /* with the time and, after a blow-up, the limit */
+    static const char *const sentences[] = {
+        [GM_BLOW_UP] = "the step after t = %.6g led beyond %.3g, or to NaN",
+        [GM_MESH_CROSSING] = "the mesh would have tangled in the step after t = %.6g",
+        [GM_STEP_COLLAPSE] = "the scheme found no step to continue with after t = %.6g",
+        [GM_EVENTS_ACCUMULATE] =
+            "events follow each other in ever shorter times, and accumulate at t = %.10g",
+        [GM_STEP_TOO_SMALL] =
+            "the steps after t = %.6g are too small for the tolerance; a stiff problem needs an "
+            "implicit scheme, such as radau5",
+        [GM_OUT_OF_MEMORY] = "there was not enough memory to continue from t = %.6g, or to observe it",
+    };
     const struct gm_run *run = lane->run;
     const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
     text[0] = '\0';
@@ -292,36 +304,10 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         tell_part(lane, solved ? "was not found" : "failed", text, size)) {
         return;
     }
-    switch (run->status) {
-    case GM_OK:
-        return;
-    case GM_BLOW_UP:
-        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to NaN", run->t, run->limit);
-        return;
-    case GM_NO_CONVERGENCE:
+    if (run->status == GM_NO_CONVERGENCE) {
         tell_unsolved(run, text, size);
-        return;
-    case GM_MESH_CROSSING:
-        snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
-        return;
-    case GM_STEP_COLLAPSE:
-        snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
-        return;
-    case GM_EVENTS_ACCUMULATE:
-        snprintf(text, size, "events follow each other in ever shorter times, and accumulate at t = %.10g",
-                 run->t);
-        return;
-    case GM_STEP_TOO_SMALL:
-        snprintf(
-            text, size,
-            "the steps after t = %.6g are too small for the tolerance; a stiff problem needs an implicit "
-            "scheme, such as radau5",
-            run->t);
-        return;
-    case GM_OUT_OF_MEMORY:
-        snprintf(text, size, "there was not enough memory to continue from t = %.6g, or to observe it",
-                 run->t);
-        return;
+    } else if (run->status != GM_OK) {
+        snprintf(text, size, sentences[run->status], run->t, run->limit);
     }
 }
 

@@ -57,7 +57,7 @@ static bool open_source(struct reading *reading, const char *name, const struct 
         if (!text) {
             return false;
         }
-        const char *slash = strrchr(file->path, '/'), *base = slash ? slash + 1 : file->path;
+        const char *base = basename(file->path);
         /* a title without the file's ending and without an incomplete letter */
         size_t letters = strlen(base) - strlen(gm_file_endings[GM_FILE_SCHEME]);
         letters = letters < sizeof reading->title ? letters : sizeof reading->title - 1;

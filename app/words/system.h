@@ -32,9 +32,6 @@ const struct gm_scene *gm_scene_called(const char *word);
 /* The scene that the words "NAME key=value ..." begin with, unless one of them replaces a line of its file: the words
    then mean a scene of their own. */
 const struct gm_scene *gm_scene_of_words(int count, char *const words[]);
-/* The keys of formulas that a system's words may set or replace, until NULL; `word` is the first of these
-   words. */
-const char *const *gm_system_keys(const char *word);
 /* The scene of the system or room of the words "NAME key=value ...". Parameters on which the equations are
    built have the given values, and typed formulas replace those of the file. The scene lives as long as
    the program, and the same words give the same scene. Returns NULL with a sentence and an exit status. */

@@ -31,15 +31,10 @@ static void print_given_up(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
     const unsigned lost = scheme->base ? scheme->base->claims & ~scheme->claims : 0;
-    const char *before = "  given up: ";
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (lost >> bit & 1) {
-            printf("%s%s", before, gm_claims[bit].word);
-            before = ", ";
-        }
-    }
+    char text[512];
     if (lost) {
-        printf(" (of %s)\n", scheme->base->name);
+        printf("  given up: %s (of %s)\n", gm_catalogue_claims(lost, false, text, sizeof text),
+               scheme->base->name);
     }
 }
 

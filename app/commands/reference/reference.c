@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/words/names.h"
 #include "core/aliases.h"
 #include "core/expression/number.h"
@@ -38,6 +39,20 @@ void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters)
         }
     }
     letters[used] = '\0';
+}
+
+char *gm_catalogue_claims(unsigned claims, bool letters, char *text, size_t size)
+{
+    const char *between = "";
+    snprintf(text, size, claims ? "" : "none");
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (claims >> bit & 1) {
+            gm_append(text, size, "%s%s%s%s", between, letters ? gm_claims[bit].letter : "",
+                      letters ? " " : "", gm_claims[bit].word);
+            between = ", ";
+        }
+    }
+    return text;
 }
 
 /* ---- theory, for certificates and for the documentation of the schemes ---- */
@@ -133,20 +148,6 @@ static void put_meaning(const char *help, const char *unit)
     put_cell(unit);
 }
 
-static void put_claims(const struct gm_scheme *scheme)
-{
-    const char *comma = "";
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (scheme->claims >> bit & 1) {
-            printf("%s%s", comma, gm_claims[bit].word);
-            comma = ", ";
-        }
-    }
-    if (!scheme->claims) {
-        printf("none");
-    }
-}
-
 static void put_theory(const struct gm_scheme *scheme)
 {
     const struct gm_theory theory = gm_scheme_theory(scheme);
@@ -170,9 +171,10 @@ static void put_scheme(size_t index, const bool *fits)
     if (scheme->order > 0) {
         printf("Order %d. ", scheme->order);
     }
-    printf("Claims: ");
-    put_claims(scheme);
-    printf(".\n\n```text\n%s\n```\n\n%s.\n\n", scheme->formula, scheme->reference);
+    char claims[512];
+    printf("Claims: %s.\n\n```text\n%s\n```\n\n%s.\n\n",
+           gm_catalogue_claims(scheme->claims, false, claims, sizeof claims), scheme->formula,
+           scheme->reference);
     put_theory(scheme);
     const char *comma = "Fits ";
     for (size_t s = 0; s < gm_scene_count(); s++) {

@@ -13,6 +13,10 @@ char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size
 /* The letters of a scheme's claims, "S=R"; needs GM_CLAIM_COUNT + 1 bytes. */
 void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters);
 
+/* The words of claims, "symplectic, symmetric", each after its letter if `letters`; "none" without claims. Returns
+   text. */
+char *gm_catalogue_claims(unsigned claims, bool letters, char *text, size_t size);
+
 /* Schemes and scenes as the documentation has them, in Markdown, on standard output. */
 void gm_catalogue_schemes_markdown(void);
 void gm_catalogue_scenes_markdown(void);
