@@ -58,12 +58,11 @@ struct page {
 static void put_base64(struct page *page, const struct gm_figure_job *job, enum gm_theme theme)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
-    char text[4 * 1024], path[GM_FIGURE_PATH];
+    char path[GM_FIGURE_PATH];
     size_t count = 0;
     FILE *file = fopen(gm_figure_path(page->output, job->figure->name, theme, GM_FORMAT_PNG, path), "rb");
     while (file && (count = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        gm_base64(bytes, count, text);
-        fwrite(text, 1, gm_base64_size(count), page->file);
+        gm_base64_put(bytes, count, page->file);
     }
     page->failed = page->failed || !file || ferror(file);
     if (file) {

@@ -101,25 +101,11 @@ static struct stencil stencil_of(const struct block *block)
     return stencil;
 }
 
-static int parts_in(unsigned set)
-{
-    int count = 0;
-    for (; set; set &= set - 1) {
-        count++;
-    }
-    return count;
-}
-
 /* Braille's dot of part i: the first three rows are numbered down the columns, the fourth came later. */
 static const uint8_t braille_dots[PARTS] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
 
-static uint32_t quadrant_glyph(unsigned set)
-{
-    /* bits: upper left, upper right, lower left, lower right */
-    static const uint16_t glyphs[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
-                                        0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
-    return glyphs[set];
-}
+const uint16_t gm_quadrants[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
+                                   0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
 
 /* Fits two colours to two or four parts: of all divisions the one with the least error. */
 static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_cell *cell)
@@ -159,7 +145,7 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
     if (blank) {
         cell->glyph = ' ';
     } else if (block->count == 4) {
-        cell->glyph = quadrant_glyph(best);
+        cell->glyph = gm_quadrants[best];
     } else {
         cell->glyph = best == 3 ? 0x2588 : best == 1 ? 0x2580 : 0x2584;
     }
@@ -179,7 +165,8 @@ static void braille(const struct block *block, const struct block *area, struct 
     if (!stencil.inked) {
         return;
     }
-    if (2 * parts_in(stencil.ground) >= block->count - parts_in(stencil.inked) && stencil.ground) {
+    if (2 * __builtin_popcount(stencil.ground) >= block->count - __builtin_popcount(stencil.inked) &&
+        stencil.ground) {
         cell->background = mean(block, stencil.ground);
     }
     uint32_t dots = 0;
@@ -238,7 +225,7 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
     if (stencil.lines) {
         cell->glyph = ascii_line(stencil.inked);
     } else if (!stencil.ground) {
-        int covered = parts_in(stencil.inked);
+        int covered = __builtin_popcount(stencil.inked);
         cell->glyph = covered >= 4 ? '|' : covered >= 2 ? '-' : '.';
     } else {
         /* more coverage and more contrast give a darker glyph */

@@ -490,30 +490,31 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
         return true;
     }
     clip_to(raster, &axes->box);
+    enum gm_level level = outline ? GM_LEVEL_FILL : GM_LEVEL_LINE;
+    bool ok = true;
     switch (mark->kind) {
     case GM_MARK_LINE:
         draw_line(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE, mark->style.role);
-        return true;
+        break;
     case GM_MARK_POINTS:
         draw_points(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
-        return true;
-    case GM_MARK_POLYGON: {
-        bool ok = draw_polygon(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
-        return ok;
-    }
+        level = GM_LEVEL_LINE;
+        break;
+    case GM_MARK_POLYGON:
+        ok = draw_polygon(raster, axes, mark);
+        level = GM_LEVEL_FILL;
+        break;
     case GM_MARK_MESH:
         draw_mesh(raster, axes, mark);
-        return true;
+        break;
     case GM_MARK_IMAGE:
         draw_image(raster, axes, mark);
-        return true;
+        break;
     case GM_MARK_TEXT:
-        return true;
+        break;
     }
-    return true;
+    settle(raster, colour, mark->style.alpha, level, mark->style.role);
+    return ok;
 }
 
 void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_role role, int gap)

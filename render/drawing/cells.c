@@ -25,26 +25,14 @@ static void box(struct gm_painter *painter, int column, int row, const double pa
                       (float)round(y + part[3] * GM_CELL_HEIGHT), ink);
 }
 
-/* The quarters of the glyphs from U+2596 on: bits 0 and 1 are the upper ones, 2 and 3 the lower ones. */
-static const unsigned char quarters[] = {4, 8, 1, 13, 9, 7, 11, 2, 6, 14};
-
 /* Returns the quarters of a block, or 0 for other glyphs. */
 static unsigned quarters_of(uint32_t glyph)
 {
-    switch (glyph) {
-    case 0x2580:
-        return 3;
-    case 0x2584:
-        return 12;
-    case 0x2588:
-        return 15;
-    case 0x258C:
-        return 5;
-    case 0x2590:
-        return 10;
-    default:
-        return glyph >= 0x2596 && glyph < 0x2596 + sizeof quarters ? quarters[glyph - 0x2596] : 0;
+    unsigned set = 15;
+    while (set > 0 && gm_quadrants[set] != glyph) {
+        set--;
     }
+    return set;
 }
 
 static void draw_dots(struct gm_painter *painter, int column, int row, uint32_t dots, struct gm_ink ink)

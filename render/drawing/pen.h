@@ -17,6 +17,16 @@ struct gm_point {
     float x, y;
 };
 
+static inline struct gm_point gm_point_minus(struct gm_point a, struct gm_point b)
+{
+    return (struct gm_point){a.x - b.x, a.y - b.y};
+}
+
+static inline float gm_point_dot(struct gm_point a, struct gm_point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
 struct gm_polyline {
     struct gm_point *points;
     size_t count, capacity;

@@ -50,11 +50,8 @@ bool gm_png_tells(const char *path, const char *key, const char *text);
 /* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first); false with a sentence. */
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
 
-/* Returns the characters that `size` bytes become, padded. */
-size_t gm_base64_size(size_t size);
-
-/* Writes bytes in base64 (RFC 4648), gm_base64_size characters without a final zero. */
-void gm_base64(const unsigned char *bytes, size_t size, char *text);
+/* Writes bytes in base64 (RFC 4648), padded. */
+void gm_base64_put(const void *data, size_t size, FILE *out);
 
 /* Pictures of pixels among the text of a terminal, as bytes to send. A picture fills whole character cells.
    After the first picture only the parts that changed are sent. */

@@ -234,10 +234,7 @@ static void put_tile(struct gm_inline *image, const unsigned char *rgb, const st
         } else {
             fprintf(image->out, "\033_Gq=2,m=%d;", more);
         }
-        char text[CHUNK];
-        const size_t size = more ? step : packed - at;
-        gm_base64(image->packed + at, size, text);
-        fwrite(text, 1, gm_base64_size(size), image->out);
+        gm_base64_put(image->packed + at, more ? step : packed - at, image->out);
         fputs("\033\\", image->out);
     }
 }

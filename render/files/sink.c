@@ -14,7 +14,12 @@
 /* A frame is in `queue` from put until a worker takes it, and in `idle` while it is unused. There are at most
    `limit` frames, made at need: put never waits, gm_sink_frame does. */
 
-enum { STACK = 8 << 20 /* bytes of a thread's stack */ };
+enum {
+    STACK = 8 << 20, /* bytes of a thread's stack */
+    MOST_WORKERS = 64,
+    MOST_FRAMES = MOST_WORKERS + 2,
+    MOST_DIGITS = 64,
+};
 
 struct job {
     unsigned char *frame;
@@ -31,11 +36,11 @@ struct gm_sink {
     pthread_cond_t work;   /* signals workers: a job, or the end */
     pthread_cond_t vacant; /* signals gm_sink_frame: an idle frame, or a failure */
     size_t limit, made, idle_count, queued, head;
-    unsigned char **frames, **idle; /* all frames made; the unused ones */
-    struct job *queue;              /* a ring of `limit` jobs */
+    unsigned char *frames[MOST_FRAMES], *idle[MOST_FRAMES]; /* all frames made; the unused ones */
+    struct job queue[MOST_FRAMES];                          /* a ring of `limit` jobs */
     bool closing, dropping, failed;
     int worker_count;
-    pthread_t *workers;
+    pthread_t workers[MOST_WORKERS];
     char message[GM_MESSAGE];
 };
 
@@ -111,10 +116,6 @@ static void release(struct gm_sink *sink)
     for (size_t i = 0; i < sink->made; i++) {
         free(sink->frames[i]);
     }
-    free(sink->frames);
-    free(sink->idle);
-    free(sink->queue);
-    free(sink->workers);
     pthread_mutex_destroy(&sink->lock);
     pthread_cond_destroy(&sink->work);
     pthread_cond_destroy(&sink->vacant);
@@ -156,12 +157,8 @@ struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int w
         sink->kind = kind;
         sink->self = self;
         sink->frame_size = frame_size;
-        sink->limit = (size_t)workers + 2;
-        sink->frames = calloc(sink->limit, sizeof *sink->frames);
-        sink->idle = calloc(sink->limit, sizeof *sink->idle);
-        sink->queue = calloc(sink->limit, sizeof *sink->queue);
-        sink->workers = calloc((size_t)workers, sizeof *sink->workers);
-        if (sink->frames && sink->idle && sink->queue && sink->workers && start_workers(sink, workers)) {
+        sink->limit = (size_t)workers + MOST_FRAMES - MOST_WORKERS;
+        if (start_workers(sink, workers)) {
             return sink;
         }
         release(sink);
@@ -258,8 +255,6 @@ bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
 }
 
 /* ---- PNG files ---- */
-
-enum { MOST_WORKERS = 64, MOST_DIGITS = 64 };
 
 /* The pattern is parsed and not given to printf, because the user may have put a % into the folder's name. */
 struct png_sink {

@@ -60,7 +60,7 @@ struct gm_sink_kind {
     bool (*close)(void *self, bool keep, char *message);
 };
 
-/* Takes self over, also on failure: then NULL with a sentence. */
+/* Takes self over, also on failure: then NULL with a sentence. There are at most 64 workers. */
 struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
                               char *message);
 

@@ -156,21 +156,11 @@ static struct rgba rgba_of(struct gm_ink ink, double faint)
     return (struct rgba){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
 }
 
-static struct gm_point minus(struct gm_point a, struct gm_point b)
-{
-    return (struct gm_point){a.x - b.x, a.y - b.y};
-}
-
-static float dot(struct gm_point a, struct gm_point b)
-{
-    return a.x * b.x + a.y * b.y;
-}
-
 /* Returns the direction of a segment, and its length. */
 static struct gm_point direction(struct gm_point from, struct gm_point to, float *length)
 {
-    const struct gm_point way = minus(to, from);
-    *length = sqrtf(dot(way, way));
+    const struct gm_point way = gm_point_minus(to, from);
+    *length = sqrtf(gm_point_dot(way, way));
     return *length > 0.0f ? (struct gm_point){way.x / *length, way.y / *length}
                           : (struct gm_point){1.0f, 0.0f};
 }
@@ -195,7 +185,7 @@ static struct joint joint_at(const struct gm_polyline *line, size_t i, float rea
     struct joint joint;
     joint.before = direction(p[(i + n - 1) % n], p[i], &length);
     joint.after = direction(p[i], p[(i + 1) % n], &next);
-    const float cosine = dot(joint.before, joint.after);
+    const float cosine = gm_point_dot(joint.before, joint.after);
     /* The inner side of the mitre must not take up half of a neighbouring segment. */
     const float inner = reach * reach * (1.0f - cosine), shorter = 0.5f * fminf(length, next);
     joint.mitred = cosine > sharpest && inner <= shorter * shorter * (1.0f + cosine);
@@ -235,7 +225,7 @@ static struct gm_point normal(struct gm_point way)
 static struct gm_point mitre(struct joint joint)
 {
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
-    const float scale = 1.0f / (1.0f + dot(a, b));
+    const float scale = 1.0f / (1.0f + gm_point_dot(a, b));
     return (struct gm_point){scale * (a.x + b.x), scale * (a.y + b.y)};
 }
 
@@ -345,9 +335,9 @@ static bool convex(const struct gm_polyline *line)
     const struct gm_point *p = line->points;
     bool left = false, right = false;
     int reversals = 0;
-    struct gm_point before = minus(p[0], p[n - 1]);
+    struct gm_point before = gm_point_minus(p[0], p[n - 1]);
     for (size_t i = 0; i < n; i++) {
-        const struct gm_point after = minus(p[(i + 1) % n], p[i]);
+        const struct gm_point after = gm_point_minus(p[(i + 1) % n], p[i]);
         const float turn = before.x * after.y - before.y * after.x;
         left |= turn > 0.0f;
         right |= turn < 0.0f;
@@ -364,8 +354,8 @@ static float area_of(const struct gm_polyline *line)
 {
     float area = 0.0f;
     for (size_t i = 0; i < line->count; i++) {
-        const struct gm_point p = minus(line->points[i], line->points[0]);
-        const struct gm_point q = minus(line->points[(i + 1) % line->count], line->points[0]);
+        const struct gm_point p = gm_point_minus(line->points[i], line->points[0]);
+        const struct gm_point q = gm_point_minus(line->points[(i + 1) % line->count], line->points[0]);
         area += 0.5f * (p.x * q.y - p.y * q.x);
     }
     return area;
@@ -390,7 +380,7 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
 {
     const struct joint joint = joint_at(line, i, 0.0f);
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
-    const float scale = distance / fmaxf(0.25f, 1.0f + dot(a, b));
+    const float scale = distance / fmaxf(0.25f, 1.0f + gm_point_dot(a, b));
     return (struct gm_point){line->points[i].x + scale * (a.x + b.x),
                              line->points[i].y + scale * (a.y + b.y)};
 }

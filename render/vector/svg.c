@@ -266,20 +266,6 @@ static void box(void *self, float left, float top, float right, float bottom, st
 
 /* ---- fields ---- */
 
-static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t size)
-{
-    const size_t length = gm_base64_size(size);
-    char *text = malloc(length + 1);
-    if (!text) {
-        svg->short_of_memory = true;
-        return;
-    }
-    gm_base64(bytes, size, text);
-    text[length] = '\0';
-    fputs(text, svg->out);
-    free(text);
-}
-
 static void put_image(void *self, const struct gm_field_image *image, const struct gm_mark *mark)
 {
     struct gm_svg *svg = self;
@@ -302,7 +288,7 @@ static void put_image(void *self, const struct gm_field_image *image, const stru
         fprintf(svg->out, " opacity=\"%s\"", number(mark->style.alpha).text);
     }
     fputs(" xlink:href=\"data:image/png;base64,", svg->out);
-    put_base64(svg, png, size);
+    gm_base64_put(png, size, svg->out);
     fputs("\"/>\n", svg->out);
     free(png);
     svg->fields++;
