@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Panels, lines and cells of the pictures of grids. */
-#include "app/grid/chart.h"
+#include "app/grid/grid.h"
 
 #include <math.h>
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The terminal painter: a picture to character cells. */
-#include "render/cells/cells.h"
 
 #include <math.h>
 #include <stdlib.h>

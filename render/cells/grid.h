@@ -83,4 +83,16 @@ void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_ro
 /* Draws the colour map from bottom to top. */
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);
 
+/* The terminal painter: pictures to character cells. Text is text; marks are half blocks, quadrants, braille
+   or ASCII. It knows no terminal: app/ writes the cells to one. */
+
+/* Paints the picture over all cells (at least 1 x 1). Returns false when out of memory. */
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks);
+
+/* Returns the state's panel under a cell of a painted picture, with the middle of the cell as (x, y) on its
+   axes; NULL if the cell shows no state. */
+const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                                       enum gm_blocks blocks, int column, int row, double *x, double *y);
+
 #endif

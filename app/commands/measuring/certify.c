@@ -11,7 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
 #include "app/grid/certified_lane.h"
-#include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"

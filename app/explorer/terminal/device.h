@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "app/base/interrupt.h"
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 #include "render/files/images.h"
 #include "render/layout/appearance.h"
 

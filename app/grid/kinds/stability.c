@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/grid/chart.h"
 #include "app/grid/grid.h"
 #include "app/grid/hooks.h"
 #include "core/arena.h"
