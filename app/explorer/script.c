@@ -13,7 +13,6 @@
 #include "app/explorer/events.h"
 #include "app/output/folder.h"
 #include "app/output/printer.h"
-#include "app/output/say.h"
 #include "core/basics.h"
 #include "render/cells/text.h"
 #include "render/clock.h"

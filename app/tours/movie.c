@@ -32,7 +32,7 @@ struct show {
     struct gm_canvas *canvas;
     struct gm_picture *picture;
     struct gm_sink *sink;       /* the movie; NULL: pictures */
-    unsigned char *rgb;         /* the picture on display */
+    const unsigned char *rgb;   /* the picture on display */
     bool answered;              /* the step's question, if it has one, is answered */
     const struct gm_grid *grid; /* the study that is drawn instead of the scene, or NULL */
     bool failed;                /* the growing diagram could not be shown */
@@ -85,7 +85,8 @@ static bool paint(struct show *show)
     show->picture->told = told;
     show->picture->told_count = tell(show, told);
     show->picture->told_lines = 5;
-    return gm_canvas_paint(show->canvas, show->picture, show->rgb) && !gm_memory_was_short();
+    show->rgb = gm_canvas_paint(show->canvas, show->picture, NULL);
+    return show->rgb && !gm_memory_was_short();
 }
 
 /* Shows the current picture for `count` frames. Returns false after a failure, which the sink reports when
@@ -252,7 +253,6 @@ static void play_all(struct gm_arena *arena, void *data)
     gm_arena_check(arena, show->canvas, message);
     show->picture = gm_picture_open();
     gm_arena_need(arena, show->picture);
-    show->rgb = gm_arena_take(arena, 3 * (size_t)output->look.width, (size_t)output->look.height);
     if (output->movie) {
         const struct gm_sink_settings settings = {.width = output->look.width,
                                                   .height = output->look.height,

@@ -274,16 +274,13 @@ static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, 
                         enum gm_blocks blocks, double scale)
 {
     int across, down;
-    bool sharp;
-    gm_blocks_grid(blocks, &across, &down, &sharp);
-    if (!gm_raster_open(raster, cells->columns * across, cells->rows * down, theme)) {
-        return false;
-    }
+    *raster = (struct gm_raster){.scale = scale, .theme = theme};
+    gm_blocks_grid(blocks, &across, &down, &raster->sharp);
+    raster->width = cells->columns * across;
+    raster->height = cells->rows * down;
     raster->unit_x = (double)CELL_WIDTH / across;
     raster->unit_y = (double)CELL_HEIGHT / down;
-    raster->scale = scale;
-    raster->sharp = sharp;
-    return true;
+    return gm_raster_open(raster);
 }
 
 /* Paints the marks; false when out of memory. */

@@ -54,7 +54,8 @@ struct gm_raster {
     int clip_left, clip_top, clip_right, clip_bottom;
 };
 
-bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme);
+/* Makes the paper of a raster that has its size, units, scale and theme. Returns false when out of memory. */
+bool gm_raster_open(struct gm_raster *raster);
 void gm_raster_close(struct gm_raster *raster);
 
 /* Sub-pixels as characters. */

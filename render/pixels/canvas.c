@@ -170,6 +170,7 @@ __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char
 }
 #endif
 
+/* Both may be one array. */
 static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t count)
 {
     size_t i = 0;
@@ -177,22 +178,23 @@ static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t cou
     i = __builtin_cpu_supports("ssse3") ? shuffle_alpha(rgba, rgb, count) : 0;
 #endif
     for (; i < count; i++) {
-        memcpy(rgb + 3 * i, rgba + 4 * i, 3);
+        memmove(rgb + 3 * i, rgba + 4 * i, 3);
     }
 }
 
-bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
 {
     struct gm_batch *batch = &canvas->brush.batch;
     gm_batch_clear(batch);
     if (!gm_page_draw(&canvas->painter, picture)) {
-        return false;
+        return NULL;
     }
     const struct gm_atlas atlas = gm_glyphs_atlas(canvas->painter.glyphs);
     const bool drawn = canvas->opengl ? gm_opengl_draw(canvas->opengl, batch, &atlas, canvas->rgba)
                                       : gm_rasteriser_draw(&canvas->rasteriser, batch, &atlas, canvas->rgba);
+    rgb = rgb ? rgb : canvas->rgba;
     drop_alpha(canvas->rgba, rgb, (size_t)canvas->painter.look.width * (size_t)canvas->painter.look.height);
-    return drawn;
+    return drawn ? rgb : NULL;
 }
 
 const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,

@@ -27,9 +27,10 @@ void gm_canvas_settle(void);
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);
 
-/* Paints the picture into rgb: height rows of width * 3 bytes, top row first. Returns false when out of
-   memory. */
-bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb);
+/* Paints the picture into rgb, or if that is NULL into pixels of the canvas, which the next picture overwrites: height
+   rows of width * 3 bytes, top row first. Returns them; NULL when out of memory. */
+const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture,
+                                     unsigned char *rgb);
 
 /* Returns the state's panel at a pixel, as gm_layout_locate does. */
 const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,

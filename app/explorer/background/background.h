@@ -8,7 +8,6 @@
 
 #include "app/base/arguments.h"
 #include "app/tours/tour.h"
-#include "core/scheme.h"
 #include "render/layout/appearance.h"
 
 /* A thread that does a piece of work on request and sleeps in between. The data belong to the thread while

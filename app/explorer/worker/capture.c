@@ -38,7 +38,6 @@ struct gm_recorder {
     /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
     long repeat; /* number of frames that show the picture */
-    unsigned char *rgb;
 
     /* owned by the thread */
     struct gm_canvas *canvas; /* NULL before the first picture */
@@ -54,9 +53,9 @@ static void record(void *self)
     if (!recorder->canvas && !recorder->failed) {
         recorder->canvas = gm_canvas_open(&look, recorder->message);
     }
-    recorder->failed = recorder->failed || !recorder->canvas ||
-                       !gm_canvas_paint(recorder->canvas, recorder->picture, recorder->rgb) ||
-                       !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
+    const unsigned char *rgb =
+        recorder->canvas ? gm_canvas_paint(recorder->canvas, recorder->picture, NULL) : NULL;
+    recorder->failed = recorder->failed || !rgb || !gm_sink_hold(recorder->sink, rgb, recorder->repeat);
 }
 
 static void end(void *self)
@@ -68,7 +67,6 @@ static void end(void *self)
 static void release(struct gm_recorder *recorder)
 {
     gm_picture_close(recorder->picture);
-    free(recorder->rgb);
     free(recorder);
 }
 
@@ -82,12 +80,9 @@ static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, 
         gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
-    *recorder = (struct gm_recorder){.theme = theme,
-                                     .begun = NAN,
-                                     .picture = gm_picture_open(),
-                                     .rgb = malloc((size_t)WIDTH * HEIGHT * 3)};
+    *recorder = (struct gm_recorder){.theme = theme, .begun = NAN, .picture = gm_picture_open()};
     snprintf(recorder->path, sizeof recorder->path, "%s", path);
-    if (!recorder->picture || !recorder->rgb) {
+    if (!recorder->picture) {
         gm_refuse(message, "There is not enough memory.");
     } else {
         recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
