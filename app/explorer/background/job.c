@@ -2,10 +2,9 @@
 /* The thread behind studies, pictures of pixels, and frames of a movie. */
 #include "app/explorer/background/background.h"
 
-#include <stdint.h>
 #include <string.h>
+#include <sys/eventfd.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "render/files/thread.h"
 #include "render/message.h"
@@ -13,7 +12,6 @@
 static void *go_on(void *self)
 {
     struct gm_job *job = self;
-    const uint64_t one = 1;
     pthread_mutex_lock(&job->lock);
     while (job->asked || !job->leave) {
         if (!job->asked) {
@@ -26,8 +24,8 @@ static void *go_on(void *self)
         job->work(job->self);
         pthread_mutex_lock(&job->lock);
         job->working = false;
-        if (job->wake >= 0 && write(job->wake, &one, sizeof one) < 0) {
-            /* the count is full: the waiting thread is awake */
+        if (job->wake >= 0) {
+            eventfd_write(job->wake, 1); /* if the count is full, the waiting thread is awake */
         }
     }
     pthread_mutex_unlock(&job->lock);

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -48,12 +48,11 @@ static void show(struct gm_study *study)
     gm_grid_draw(&study->grid, picture);
     study->looked = gm_clock_seconds();
     study->told = study->now.message_number;
-    const uint64_t one = 1;
     pthread_mutex_lock(&study->job.lock);
     study->ready = true;
     pthread_mutex_unlock(&study->job.lock);
-    if (study->wake >= 0 && write(study->wake, &one, sizeof one) < 0) {
-        return; /* the counter is full: its reader will take the look */
+    if (study->wake >= 0) {
+        eventfd_write(study->wake, 1); /* if the counter is full, its reader will take the look */
     }
 }
 
