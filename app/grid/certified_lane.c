@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scheme is certified on the system of a lane, from its start. */
-#include "app/grid/certified_lane.h"
+#include "app/grid/grid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,6 +6,7 @@
 #include "app/grid/sweep.h"
 #include "app/output/row.h"
 #include "app/words/request.h"
+#include "core/certify.h"
 #include "core/ode/backward/modified_energy.h"
 #include "scenes/common/graph.h"
 
@@ -242,5 +243,13 @@ void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm
    scale. Returns the axis. */
 struct gm_axis gm_chart_edges(const char *label, const double *values, size_t count, bool logarithmic,
                               double *edges);
+
+/* ---- one scheme on a system ---- */
+
+/* Certifies a scheme, the first of the typed words, on a scene or a system with the others, key=value, from the
+   start of the first member. Called in a body of the arena, which closes what the certificate points to; leaves it
+   with a sentence and an exit status. */
+struct gm_certificate gm_certify_words(struct gm_arena *arena, const char *system,
+                                       const struct gm_arguments *typed, int *status);
 
 #endif

@@ -67,17 +67,6 @@ static enum gm_role chief_role(const struct block *block, unsigned set)
     return (enum gm_role)best;
 }
 
-static unsigned parts_of_role(const struct block *block, unsigned set, enum gm_role role)
-{
-    unsigned kept = 0;
-    for (int i = 0; i < block->count; i++) {
-        if (set >> i & 1 && block->part[i].role == role) {
-            kept |= 1u << i;
-        }
-    }
-    return kept;
-}
-
 /* The parts of a cell that a glyph with one colour shows: lines before areas, areas before the grid. */
 struct stencil {
     unsigned inked;  /* the parts that are drawn */
@@ -96,7 +85,10 @@ static struct stencil stencil_of(const struct block *block)
     stencil.inked = lines ? lines : stencil.ground ? stencil.ground : parts_of_level(block, GM_LEVEL_GRID);
     if (stencil.inked) {
         stencil.role = chief_role(block, stencil.inked);
-        stencil.colour = parts_of_role(block, stencil.inked, stencil.role);
+        for (int i = 0; i < block->count; i++) {
+            const bool shown = stencil.inked >> i & 1 && block->part[i].role == stencil.role;
+            stencil.colour |= (unsigned)shown << i;
+        }
     }
     return stencil;
 }

@@ -7,7 +7,7 @@
 #include "render/picture/picture.h"
 
 /* The painter of pixels: pictures to rows of bytes, without a screen. A canvas has one look, whose title
-   outlives it, and is used by one thread at a time. The rasteriser (render/pixels/rasteriser.h) draws the
+   outlives it, and is used by one thread at a time. Its own rasteriser draws the
    same bits on every machine with the same fonts. The alternative is OpenGL (render/gl/opengl.h). */
 
 struct gm_canvas;

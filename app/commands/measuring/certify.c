@@ -10,7 +10,6 @@
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
-#include "app/grid/certified_lane.h"
 #include "app/grid/grid.h"
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
