@@ -7,6 +7,7 @@
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
+#include "core/certify.h"
 #include "library/handle.h"
 
 static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_words *opening)

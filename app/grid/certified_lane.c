@@ -8,6 +8,7 @@
 #include "app/base/arguments.h"
 #include "app/words/request.h"
 #include "core/arena.h"
+#include "core/certify.h"
 #include "core/field/field.h"
 #include "core/memory.h"
 #include "core/mesh/moving_mesh.h"

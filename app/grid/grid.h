@@ -6,7 +6,6 @@
 #include "app/grid/sweep.h"
 #include "app/output/row.h"
 #include "app/words/request.h"
-#include "core/certify.h"
 #include "core/ode/backward/modified_energy.h"
 #include "scenes/common/graph.h"
 
@@ -249,6 +248,7 @@ struct gm_axis gm_chart_edges(const char *label, const double *values, size_t co
 /* Certifies a scheme, the first of the typed words, on a scene or a system with the others, key=value, from the
    start of the first member. Called in a body of the arena, which closes what the certificate points to; leaves it
    with a sentence and an exit status. */
+struct gm_certificate;
 struct gm_certificate gm_certify_words(struct gm_arena *arena, const char *system,
                                        const struct gm_arguments *typed, int *status);
 

@@ -85,18 +85,4 @@ bool gm_inline_encode(struct gm_inline *image, const unsigned char *rgb, bool wh
 /* Returns the bytes that remove such pictures; "" if text written over them does. */
 const char *gm_inline_removal(enum gm_inline_kind kind);
 
-/* Sixels: pictures of up to 256 colours for terminals in the tradition of the VT340 (DEC, VT330/VT340
-   Programmer Reference Manual, vol. 2, chapter 14). The colours are chosen for each picture. */
-
-struct gm_sixel;
-
-/* Returns NULL when out of memory. */
-struct gm_sixel *gm_sixel_open(void);
-void gm_sixel_close(struct gm_sixel *sixel);
-
-/* Encodes width x height pixels of 3 bytes each, `stride` bytes from row to row. Returns false when out of memory,
-   which `out` may report, too. */
-bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
-                     FILE *out);
-
 #endif

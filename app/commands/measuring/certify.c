@@ -18,6 +18,7 @@
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
+#include "core/certify.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "core/schemes.h"
