@@ -58,18 +58,8 @@ struct gm_raster {
 bool gm_raster_open(struct gm_raster *raster);
 void gm_raster_close(struct gm_raster *raster);
 
-/* Sub-pixels as characters. */
-
-/* The sub-pixels of a cell; `sharp`: they are only on or off. */
-void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp);
-
 /* The glyphs of sets of quarters; bits: upper left, upper right, lower left, lower right. */
 extern const uint16_t gm_quadrants[16];
-
-/* Turns the raster into glyphs with two colours each. Braille draws lines well and areas badly, so it takes
-   areas from a second raster, made for GM_QUADRANTS; NULL for other blocks. */
-void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, const struct gm_raster *areas,
-                      enum gm_blocks blocks);
 
 /* Marks on the raster. */
 

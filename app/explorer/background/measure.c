@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
+
 extern char **environ;
 
 static void end(struct gm_measure *measure)
