@@ -408,36 +408,30 @@ static bool write_picture(struct gm_explorer *explorer, const struct gm_override
     return gm_chart_write(&chart, message);
 }
 
-/* Returns true if the file and the keys of the options can be understood; else fills message. */
-static bool check_script(const struct gm_overrides *overrides, char *message)
+/* Reads the keys of the options. Returns true if these and the file can be understood; else fills message. */
+static bool check_script(const struct gm_overrides *overrides, struct gm_arguments *words, char *message)
 {
-    struct gm_arguments words = {0};
     enum gm_format format;
     const char *path = overrides->shot, *dot = strrchr(path, '.');
     const bool known =
         (gm_format_of(path, &format) && format != GM_FORMAT_PDF) || (dot && strcmp(dot, ".txt") == 0);
-    const bool fits = (known || gm_refuse(message, "--shot %.300s is not a .txt, .svg or .png file", path)) &&
-                      (gm_arguments_split(&words, overrides->keys ? overrides->keys : "") ||
-                       gm_refuse(message, "There is not enough memory.")) &&
-                      check_words(&words, message);
-    gm_arguments_close(&words);
-    return fits;
+    return (known || gm_refuse(message, "--shot %.300s is not a .txt, .svg or .png file", path)) &&
+           (gm_arguments_split(words, overrides->keys ? overrides->keys : "") ||
+            gm_refuse(message, "There is not enough memory.")) &&
+           check_words(words, message);
 }
 
 /* Plays the script on the explorer's open scene or list, and writes the screen. Returns the exit status, and
    fills the explorer's message unless that is 0. */
-static int play_script(struct gm_explorer *explorer, const struct gm_overrides *overrides)
+static int play_script(struct gm_explorer *explorer, const struct gm_overrides *overrides,
+                       const struct gm_arguments *words)
 {
-    struct gm_arguments words = {0};
     enum gm_format format;
-    if (!gm_screen_resize(&explorer->screen, explorer->terminal.columns, explorer->terminal.rows) ||
-        !gm_arguments_split(&words, overrides->keys ? overrides->keys : "")) {
-        gm_arguments_close(&words);
+    if (!gm_screen_resize(&explorer->screen, explorer->terminal.columns, explorer->terminal.rows)) {
         gm_refuse(explorer->message, "There is not enough memory.");
         return GM_EXIT_MEMORY;
     }
-    play(explorer, &words);
-    gm_arguments_close(&words);
+    play(explorer, words);
     if (explorer->leave && explorer->status != GM_EXIT_OK) {
         return explorer->status;
     }
@@ -454,10 +448,12 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
 {
     struct gm_explorer explorer = {.wake = -1, .list = {.look_due = -1}, .measure = {.fd = -1}};
     const bool scripted = overrides->shot != NULL;
+    struct gm_arguments words = {0};
     if (scripted ? !gm_terminal_imagine(&explorer.terminal, overrides, explorer.message) ||
-                       !check_script(overrides, explorer.message)
+                       !check_script(overrides, &words, explorer.message)
                  : !gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
                        !gm_terminal_serves(&explorer.terminal, explorer.message)) {
+        gm_arguments_close(&words);
         return gm_give_up(GM_EXIT_USAGE, "%s", explorer.message);
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
@@ -492,7 +488,7 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     }
     int number = 0;
     if (ok && scripted) {
-        explorer.status = play_script(&explorer, overrides);
+        explorer.status = play_script(&explorer, overrides, &words);
         gm_display_close(&explorer.display);
     } else if (ok) {
         ok = gm_console_open(explorer.wake, &explorer.terminal, explorer.message) &&
@@ -511,6 +507,7 @@ int gm_explorer(const struct gm_request *request, const struct gm_tour *tour,
     gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);
     gm_explorer_close_list(&explorer.list);
+    gm_arguments_close(&words);
     fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
     free(explorer.open.partings);
     gm_console_release(); /* the eventfd stays open: an abandoned worker may still write to it */

@@ -10,14 +10,6 @@
 
 /* ---- sub-pixels as characters: half blocks, quadrants, braille and ASCII ---- */
 
-/* The sub-pixels of a cell; `sharp`: they are only on or off. */
-static void blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp)
-{
-    *columns = blocks == GM_HALF_BLOCKS ? 1 : 2;
-    *rows = blocks == GM_BRAILLE || blocks == GM_ASCII ? 4 : 2;
-    *sharp = blocks == GM_BRAILLE || blocks == GM_ASCII;
-}
-
 enum { PARTS = 8 }; /* the most sub-pixels per cell, stored row by row */
 
 struct block {
@@ -262,9 +254,7 @@ static void draw_blocks(struct gm_cells *cells, const struct gm_raster *raster, 
 {
     struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER),
                   ink = gm_theme_colour(raster->theme, GM_INK);
-    int across, down;
-    bool sharp;
-    blocks_grid(blocks, &across, &down, &sharp);
+    const int across = raster->width / cells->columns, down = raster->height / cells->rows;
     for (int row = 0; row < cells->rows; row++) {
         for (int column = 0; column < cells->columns; column++) {
             struct block block = {.count = across * down}, area = {.count = 4};
@@ -558,13 +548,15 @@ static void paint_texts(struct painter *painter, const struct gm_layout *layout)
 static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, enum gm_theme theme,
                         enum gm_blocks blocks, double scale)
 {
-    int across, down;
-    *raster = (struct gm_raster){.scale = scale, .theme = theme};
-    blocks_grid(blocks, &across, &down, &raster->sharp);
-    raster->width = cells->columns * across;
-    raster->height = cells->rows * down;
-    raster->unit_x = (double)CELL_WIDTH / across;
-    raster->unit_y = (double)CELL_HEIGHT / down;
+    const bool sharp = blocks == GM_BRAILLE || blocks == GM_ASCII;
+    const int across = blocks == GM_HALF_BLOCKS ? 1 : 2, down = sharp ? 4 : 2;
+    *raster = (struct gm_raster){.width = cells->columns * across,
+                                 .height = cells->rows * down,
+                                 .unit_x = (double)CELL_WIDTH / across,
+                                 .unit_y = (double)CELL_HEIGHT / down,
+                                 .scale = scale,
+                                 .sharp = sharp,
+                                 .theme = theme};
     return gm_raster_open(raster);
 }
 
