@@ -101,7 +101,7 @@ static bool put(struct show *show, long count)
     return true;
 }
 
-/* Paints the present state and shows it for `count` frames. */
+/* Paints the current state and shows it for `count` frames. */
 static void present(struct show *show, long count)
 {
     gm_arena_refuse_if(show->arena, !paint(show), "not enough memory to paint");

@@ -2,24 +2,13 @@
 #ifndef GM_RENDER_GL_CONTEXT_H
 #define GM_RENDER_GL_CONTEXT_H
 
-#include "render/gl/library.h"
+#include "render/gl/backend.h"
 
 /* An OpenGL 3.3 core context without a screen. Painters draw into a framebuffer object. Libraries are loaded
    when the first context is opened, so a program that paints nothing starts fast, and runs without Mesa. They are
    never unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
 
 enum gm_context_kind { GM_CONTEXT_OSMESA, GM_CONTEXT_EGL, GM_CONTEXT_KINDS };
-
-/* A way to get a context, of which a process has one of each kind. */
-struct gm_backend {
-    void *(*load)(char *message, size_t size); /* the library, or NULL */
-    const char *(*open)(void *library);        /* makes the context current, or returns why not */
-    void (*close)(void);
-    bool (*use)(void);     /* makes the context current in the calling thread, which has no other one */
-    void (*release)(void); /* makes it current in none */
-    gm_library_function (*find)(const char *name); /* a GL function, or NULL */
-};
-extern const struct gm_backend gm_backend_osmesa, gm_backend_egl;
 
 /* Bytes of address space that Mesa and its libraries take. */
 enum { GM_CONTEXT_TAKES = 512 << 20 };

@@ -8,7 +8,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include "render/gl/context.h"
+#include "render/gl/backend.h"
 
 static struct {
     EGLDisplay display;

@@ -7,7 +7,7 @@
 #include <GL/gl.h>
 #include <GL/osmesa.h>
 
-#include "render/gl/context.h"
+#include "render/gl/backend.h"
 
 enum { SIDE = 16 }; /* side in pixels of the buffer that a context must have; nothing is drawn there */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Colours for paper and for a screen: those of roles, and colour maps. */
+/* The colours of roles, for paper and for a screen, and colour maps. */
 #include "render/layout/appearance.h"
 
 #include <math.h>

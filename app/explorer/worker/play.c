@@ -45,7 +45,8 @@ static void set_speed_for(struct gm_play *play, double span, double seconds)
     set_speed(play, (int)round(3 * log10(span / seconds)));
 }
 
-void gm_play_say(struct gm_play *play, const char *format, ...)
+/* Sets the message of the status line. */
+__attribute__((format(printf, 2, 3))) static void say(struct gm_play *play, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -112,7 +113,7 @@ bool gm_play_keep_agenda(struct gm_play *play)
     }
     const bool stop = gm_agenda_keep(&play->agenda, &play->session, message);
     if (message[0]) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     }
     if (stop) {
         play->paused = true;
@@ -178,8 +179,7 @@ static bool step_along(struct gm_play *play)
     } else if (play->homewards && gm_play_left_until(play, first->t0) < 1e-6 * fabs(first->run->dt)) {
         play->homewards = false;
         play->paused = true; /* so that the returned states can be seen */
-        gm_play_say(play,
-                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
+        say(play, "Back at the start: “from start” shows how near each scheme comes to where it began.");
     }
     double next = gm_session_next(&play->session);
     if (!play->paused && isfinite(next)) {
@@ -251,7 +251,7 @@ static void restart(struct gm_play *play)
     play->frozen = 0;
     play->ahead = play->homewards = false;
     if (!gm_session_restart(&play->session, message)) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     }
     set_clock(play, gm_session_time(&play->session));
     if (play->agenda.tour) { /* its step is shown again */
@@ -309,9 +309,9 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
             [GM_EVENTS_ACCUMULATE] = "has events without end",
         };
-        gm_play_say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
-                    sentences[latest->run->status], latest->run->t,
-                    frozen < play->session.count ? "; the others continue" : "");
+        say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
+            sentences[latest->run->status], latest->run->t,
+            frozen < play->session.count ? "; the others continue" : "");
     }
     play->frozen = frozen;
 }
@@ -354,8 +354,8 @@ static bool undo(struct gm_play *play, char *message)
                                  &play->restart, message)) {
         return false;
     }
-    gm_play_say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
-                scheme ? order->scheme->title : order->text);
+    say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
+        scheme ? order->scheme->title : order->text);
     return true;
 }
 
@@ -386,10 +386,10 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
             return;
         }
     } else if (!gm_slider_next(row, owner, order->amount, order->kind == GM_ORDER_NUDGE, text)) {
-        gm_play_say(play,
-                    row->type == GM_TEXT ? "%s is a word of your own: enter types it."
-                                         : "%s is at the end of its range.",
-                    row->key);
+        say(play,
+            row->type == GM_TEXT ? "%s is a word of your own: enter types it."
+                                 : "%s is at the end of its range.",
+            row->key);
         return;
     }
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
@@ -403,7 +403,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     gm_parameter_format(row, owner, back.text, sizeof back.text);
     if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
                         message)) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     } else if (strcmp(back.text, text) != 0) {
         note_undo(play, back);
     }
@@ -479,7 +479,7 @@ static bool turn(struct gm_play *play, char *message)
     }
     const struct gm_lane *lane = session->lanes[0];
     play->homewards = gm_play_left_until(play, lane->t0) > 0.5 * fabs(lane->run->dt);
-    gm_play_say(play, play->homewards ? "Time runs back to the start." : "Time runs the other way.");
+    say(play, play->homewards ? "Time runs back to the start." : "Time runs the other way.");
     return true;
 }
 
@@ -603,7 +603,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         play->selected = play->selected < session->count ? play->selected : session->count - 1;
         break;
     case GM_ORDER_RECORD:
-        gm_capture_record(capture, play, (enum gm_theme)order->amount);
+        ok = gm_capture_record(capture, session, (enum gm_theme)order->amount, message);
         break;
     case GM_ORDER_UNDO:
         ok = undo(play, message);
@@ -612,10 +612,10 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         gm_capture_tell(capture, session, (enum gm_theme)order->amount);
         break;
     case GM_ORDER_SAVE:
-        gm_capture_save(play, (enum gm_theme)order->amount);
+        ok = gm_capture_save(play, (enum gm_theme)order->amount, message);
         break;
     case GM_ORDER_SYSTEM:
-        gm_capture_save_system(play);
+        ok = gm_capture_save_system(play, message);
         break;
     case GM_ORDER_TOUR:
         play_tour_step(play, order->tour, order->step, order->amount != 0);
@@ -625,7 +625,7 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     }
     if (!ok) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     }
     if (order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_TURN || order->kind == GM_ORDER_VISIT) {
         gm_agenda_rewind(&play->agenda, gm_session_time(session));

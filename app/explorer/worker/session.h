@@ -89,9 +89,6 @@ struct gm_play {
 /* Starts playing an open session, at a speed at which the scene's time span takes some seconds. */
 void gm_play_begin(struct gm_play *play);
 
-/* Sets the message of the status line. */
-__attribute__((format(printf, 2, 3))) void gm_play_say(struct gm_play *play, const char *format, ...);
-
 /* ---- time ---- */
 
 /* Returns the model time per second: 1, 2 or 5 times a power of ten. */
@@ -132,12 +129,14 @@ struct gm_capture {
 /* Frees the commands. Call gm_capture_stop_recording first. */
 void gm_capture_close(struct gm_capture *capture);
 
-/* Saves the played system to a file if it is user-defined. */
-void gm_capture_save_system(struct gm_play *play);
+/* These return false with a sentence (GM_MESSAGE bytes) for the status line, also on success. */
+/* Saves the played system to a file; true without a sentence if it is not user-defined. */
+bool gm_capture_save_system(const struct gm_play *play, char *sentence);
 /* Saves the picture as PNG to the working directory. */
-void gm_capture_save(struct gm_play *play, enum gm_theme theme);
+bool gm_capture_save(struct gm_play *play, enum gm_theme theme, char *sentence);
 /* Starts the movie, or finishes it. */
-void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme);
+bool gm_capture_record(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme,
+                       char *sentence);
 /* Finishes the movie. Returns true and fills sentence (GM_MESSAGE bytes) if there was one. */
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence);
 /* Records a frame of the movie if one is due. */
