@@ -85,29 +85,25 @@ static void put_ink(FILE *out, const char *name, struct gm_ink ink)
     }
 }
 
+static const char *const escapes[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+enum { ESCAPES = sizeof escapes / sizeof *escapes };
+
 /* XML cannot contain most control characters: characters that are not shown become U+FFFD. */
 static void put_text(FILE *out, const char *text)
 {
-    static const char unknown[] = "\xef\xbf\xbd";
     while (*text) {
         const char *start = text;
         const uint32_t code = gm_text_next(&text);
-        switch (code) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        default:
-            if (gm_text_is_shown(code) || code == '\n') {
-                fprintf(out, "%.*s", (int)(text - start), start);
-            } else {
-                fputs(unknown, out);
-            }
+        size_t i = 0;
+        while (i < ESCAPES && code != (uint32_t)escapes[i][1][0]) {
+            i++;
+        }
+        if (i < ESCAPES) {
+            fputs(escapes[i][0], out);
+        } else if (gm_text_is_shown(code) || code == '\n') {
+            fprintf(out, "%.*s", (int)(text - start), start);
+        } else {
+            fputs("\xef\xbf\xbd", out);
         }
     }
 }
@@ -426,12 +422,11 @@ enum { MOST_BYTES = 1 << 28 };
 /* Undoes the escapes of a text, in place. */
 static void unescape(char *text)
 {
-    static const char *const escapes[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
     char *to = text;
     while (*text) {
         size_t taken = 1;
         *to = *text;
-        for (size_t i = 0; i < sizeof escapes / sizeof escapes[0]; i++) {
+        for (size_t i = 0; i < ESCAPES; i++) {
             if (strncmp(text, escapes[i][0], strlen(escapes[i][0])) == 0) {
                 *to = escapes[i][1][0];
                 taken = strlen(escapes[i][0]);
