@@ -617,11 +617,11 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
     return ok;
 }
 
-const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
-                                       enum gm_blocks blocks, int column, int row, double *x, double *y)
+struct gm_spot gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                               enum gm_blocks blocks, int column, int row)
 {
     bool ascii = blocks == GM_ASCII;
     struct gm_metrics metrics = metrics_of(cells, &ascii);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
-    return gm_layout_locate(layout, (column + 0.5) * CELL_WIDTH, (row + 0.5) * CELL_HEIGHT, x, y);
+    return gm_layout_locate(layout, (column + 0.5) * CELL_WIDTH, (row + 0.5) * CELL_HEIGHT);
 }

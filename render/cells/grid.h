@@ -81,9 +81,8 @@ void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_co
 bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
                     enum gm_blocks blocks);
 
-/* Returns the state's panel under a cell of a painted picture, with the middle of the cell as (x, y) on its
-   axes; NULL if the cell shows no state. */
-const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
-                                       enum gm_blocks blocks, int column, int row, double *x, double *y);
+/* Returns the spot in the middle of a cell of a painted picture. */
+struct gm_spot gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                               enum gm_blocks blocks, int column, int row);
 
 #endif

@@ -17,9 +17,7 @@ struct gm_layout {
    memory. Labels never overlap or leave the surface: a label without room is left out. */
 const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics);
 
-/* Returns the state's panel at a place of the surface, and the place in units of its axes; NULL if there is
-   no panel, or if its axes are logarithmic. */
-const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double across, double down, double *x,
-                                        double *y);
+/* Returns the spot at a place of the surface. */
+struct gm_spot gm_layout_locate(const struct gm_layout *layout, double across, double down);
 
 #endif

@@ -70,6 +70,12 @@ struct gm_axes { /* a panel on the surface */
     size_t bar_tick_count;
 };
 
+/* A place in a state's panel, in units of its axes; without a panel if there is none, or if its axes are logarithmic. */
+struct gm_spot {
+    const struct gm_panel *panel;
+    double x, y;
+};
+
 /* Returns the part of a text's width on the left of its anchor: 0, 1/2 or 1. */
 double gm_anchor_share(enum gm_anchor anchor);
 

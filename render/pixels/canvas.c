@@ -582,9 +582,9 @@ const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture
     return drawn ? rgb : NULL;
 }
 
-const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
-                                        double down, double *x, double *y)
+struct gm_spot gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                double down)
 {
     const struct gm_metrics metrics = gm_painter_metrics(&canvas->painter);
-    return gm_layout_locate(gm_layout_make(picture, &metrics), across, down, x, y);
+    return gm_layout_locate(gm_layout_make(picture, &metrics), across, down);
 }

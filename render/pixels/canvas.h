@@ -32,9 +32,9 @@ void gm_canvas_close(struct gm_canvas *canvas);
 const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture,
                                      unsigned char *rgb);
 
-/* Returns the state's panel at a pixel, as gm_layout_locate does. */
-const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
-                                        double down, double *x, double *y);
+/* Returns the spot at a pixel. */
+struct gm_spot gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                double down);
 
 /* The name of the painter, up to a comma a word for gm_canvas_choose: "own", or "osmesa, OpenGL 4.5, llvmpipe
    (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */

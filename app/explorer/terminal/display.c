@@ -206,17 +206,16 @@ bool gm_display_show(struct gm_display *display, const struct gm_screen *screen,
     return true;
 }
 
-const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
-                                         int row, double *x, double *y)
+struct gm_spot gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column, int row)
 {
     const struct gm_inline_place *place = &display->job.place;
     gm_display_finish(display);
     if (!display->painter || !display->painter->canvas) {
-        return NULL;
+        return (struct gm_spot){NULL, 0, 0};
     }
     return gm_canvas_locate(display->painter->canvas, picture,
                             (column - place->column + 0.5) * place->cell_width,
-                            (row - place->row + 0.5) * place->cell_height, x, y);
+                            (row - place->row + 0.5) * place->cell_height);
 }
 
 /* Sends queued bytes and awaits the answers, for at most PATIENCE milliseconds. */

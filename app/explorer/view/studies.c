@@ -356,18 +356,17 @@ char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, i
 {
     const struct gm_study *study = studies->studies[studies->shown];
     const struct look *look = study ? study->look : NULL;
-    double x, y;
+    struct gm_spot spot = {NULL, 0, 0};
     size_t number = 0;
-    const struct gm_panel *hit =
-        look && studies->painting.fresh
-            ? gm_cells_locate(&studies->painting.cells, look->picture, blocks, column, row, &x, &y)
-            : NULL;
-    for (const struct gm_panel *panel = hit ? look->picture->first : NULL; panel && panel != hit;
-         panel = panel->next) {
+    if (look && studies->painting.fresh) {
+        spot = gm_cells_locate(&studies->painting.cells, look->picture, blocks, column, row);
+    }
+    for (const struct gm_panel *panel = spot.panel ? look->picture->first : NULL;
+         panel && panel != spot.panel; panel = panel->next) {
         number++;
     }
     const struct gm_study_row *kind = gm_study_rows[studies->shown];
-    return hit && kind->pick ? kind->pick(&study->grid, number, x, y) : NULL;
+    return spot.panel && kind->pick ? kind->pick(&study->grid, number, spot.x, spot.y) : NULL;
 }
 
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
