@@ -6,7 +6,7 @@
 
 #include "render/cells/grid.h"
 #include "render/cells/text.h"
-#include "render/layout/layout.h"
+#include "render/layout/panel.h"
 
 /* ---- sub-pixels as characters: half blocks, quadrants, braille and ASCII ---- */
 

@@ -7,7 +7,6 @@
 
 #include "render/drawing/glyphs.h"
 #include "render/layout/appearance.h"
-#include "render/layout/layout.h"
 #include "render/layout/panel.h"
 #include "render/message.h"
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a picture on a surface of given size. */
-#include "render/layout/layout.h"
+
+#include "render/layout/panel.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-#include "render/layout/panel.h"
 
 /* Distances in pixels of a picture 720 high. */
 static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0, header_gap = 18.0,
