@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a picture on a surface of given size. */
-
 #include "render/layout/panel.h"
 
 #include <math.h>
