@@ -70,7 +70,7 @@ struct gm_axes { /* a panel on the surface */
     size_t bar_tick_count;
 };
 
-/* A place in a state's panel, in units of its axes; without a panel if there is none, or if its axes are logarithmic. */
+/* A place in a state's panel, in units of its axes. The panel is NULL beside all states, and on logarithmic axes. */
 struct gm_spot {
     const struct gm_panel *panel;
     double x, y;
