@@ -3,10 +3,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "app/grid/certified_lane.h"
+#include "app/grid/grid.h"
 #include "app/output/scheme_json.h"
 #include "app/words/scheme.h"
 #include "core/arena.h"
+#include "core/theory/certify.h"
 #include "library/handle.h"
 
 static const struct gm_scheme *find(struct gm_arena *arena, struct gm_handle_words *opening)

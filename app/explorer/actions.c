@@ -418,20 +418,18 @@ static void click_parameter(struct gm_explorer *explorer, size_t index)
 
 static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    struct gm_order order = {.kind = GM_ORDER_POINT};
     const struct gm_screen *screen = &explorer->screen;
     if (!explorer->open.shot->scene->point) {
         return;
     }
     struct gm_picture *picture = explorer->open.shot->picture;
-    const struct gm_panel *panel =
+    const struct gm_spot spot =
         screen->pixels.columns > 0
-            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row)
             : gm_cells_locate(&screen->picture.cells, picture, screen->picture.blocks,
-                              event->column - screen->picture_column, event->row - screen->picture_row,
-                              &order.x, &order.y);
-    if (panel) {
-        gm_explorer_order(explorer, order);
+                              event->column - screen->picture_column, event->row - screen->picture_row);
+    if (spot.panel) {
+        gm_explorer_order(explorer, (struct gm_order){.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y});
     }
 }
 

@@ -8,8 +8,8 @@
 #include "app/explorer/worker/session.h"
 #include "app/words/request.h"
 
-/* The state that the explorer's files share. explorer.c has start, loop and end, actions.c handles keys and the mouse,
-   list.c the list of scenes and the screen, open.c scenes and typed lines. script.c is the explorer without a terminal. */
+/* The state that the explorer's files share. explorer.c has start, loop, end and scripts, actions.c handles keys and the mouse,
+   list.c the list of scenes and the screen, open.c scenes and typed lines. */
 
 enum { GM_NAME = 256 };
 
@@ -105,14 +105,6 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 bool gm_explorer_compose(struct gm_explorer *explorer);
 /* Takes a new shot of the worker, or if that is NULL its failure. */
 void gm_explorer_take(struct gm_explorer *explorer, struct gm_shot *shot);
-
-/* ---- a script (script.c) ---- */
-
-/* Returns true if the file and the keys of the options can be understood; else fills message. */
-bool gm_script_check(const struct gm_overrides *overrides, char *message);
-/* Plays the script on the explorer's open scene or list, and writes the screen. Returns the exit status, and
-   fills the explorer's message unless that is 0. */
-int gm_script_play(struct gm_explorer *explorer, const struct gm_overrides *overrides);
 
 /* ---- scenes ---- */
 

@@ -14,6 +14,7 @@
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "render/files/images.h"
+#include "render/files/temporary.h"
 
 static void put_text(FILE *page, const char *text)
 {
@@ -58,12 +59,11 @@ struct page {
 static void put_base64(struct page *page, const struct gm_figure_job *job, enum gm_theme theme)
 {
     unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
-    char text[4 * 1024], path[GM_FIGURE_PATH];
+    char path[GM_FIGURE_PATH];
     size_t count = 0;
     FILE *file = fopen(gm_figure_path(page->output, job->figure->name, theme, GM_FORMAT_PNG, path), "rb");
     while (file && (count = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        gm_base64(bytes, count, text);
-        fwrite(text, 1, gm_base64_size(count), page->file);
+        gm_base64_put(bytes, count, page->file);
     }
     page->failed = page->failed || !file || ferror(file);
     if (file) {
@@ -303,8 +303,10 @@ static void put_document(struct page *page, const struct gm_document *document)
     fputs("</section>\n", page->file);
 }
 
-static void put_page(struct page *page)
+static bool put_page(FILE *file, const void *context)
 {
+    struct page all = *(const struct page *)context, *page = &all;
+    page->file = file;
     const struct gm_figure_sum sum = gm_figures_sum(page->jobs, page->outcomes, page->count);
     const bool quick = page->output->quick;
     char slot[GM_PAGE_SLOT];
@@ -329,25 +331,16 @@ static void put_page(struct page *page)
             put_document(page, &own_systems);
         }
     }
+    return !page->failed;
 }
 
 bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message)
 {
-    char path[GM_FIGURE_PATH], partial[GM_FIGURE_PATH];
+    char path[GM_FIGURE_PATH];
+    const struct page page = {.output = output, .jobs = jobs, .outcomes = outcomes, .count = count};
     snprintf(path, sizeof path, "%s/figures.html", output->folder);
-    snprintf(partial, sizeof partial, "%s/.figures.html", output->folder);
-    struct page page = {fopen(partial, "w"), output, jobs, outcomes, count, false};
-    bool made = false;
-    if (page.file) {
-        put_page(&page);
-        const bool written = !page.failed && !ferror(page.file);
-        made = fclose(page.file) == 0 && written && rename(partial, path) == 0;
-    }
-    if (!made) {
-        gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
-                  gm_memory_was_short() ? "not enough memory" : strerror(errno));
-        remove(partial);
-    }
-    return made;
+    return gm_temporary_make(path, put_page, &page) ||
+           gm_refuse(message, "%.200s/figures.html could not be written: %s", output->folder,
+                     gm_memory_was_short() ? "not enough memory" : strerror(errno));
 }

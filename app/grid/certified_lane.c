@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scheme is certified on the system of a lane, from its start. */
-#include "app/grid/certified_lane.h"
+#include "app/grid/grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,6 +13,7 @@
 #include "core/mesh/moving_mesh.h"
 #include "core/ode/user/problem.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 
 struct kept {
     const struct gm_lane *lane;

@@ -7,6 +7,7 @@
 #include "app/output/row.h"
 #include "app/words/request.h"
 #include "core/ode/backward/modified_energy.h"
+#include "scenes/common/graph.h"
 
 /* A grid of runs: a scene, its words, axes of step sizes, values and schemes, and a measurement for each
    run. Four presets give the measurement: the cost of an accuracy, the stable steps, the modified
@@ -223,5 +224,32 @@ double gm_work_price(const struct gm_grid_line *line, double error, enum gm_cost
 
 /* The line that is cheapest at this error; NULL if none reaches it. */
 const struct gm_grid_line *gm_work_cheapest(const struct gm_grid *grid, double error, enum gm_cost cost);
+
+/* ---- panels, lines and cells of the pictures of grids ---- */
+
+/* A panel with axes. */
+struct gm_panel *gm_chart_panel(struct gm_picture *picture, enum gm_place place, const char *title,
+                                const struct gm_axis *x, const struct gm_axis *y);
+
+/* The colour of line number `index`. */
+struct gm_style gm_chart_style(size_t index);
+
+/* A line with its points, and its name among the panel's keys; without points it draws nothing. */
+void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count, const char *name);
+
+/* The count + 1 edges of the cells around `count` >= 1 values in rising order: halfway between them, on the axis'
+   scale. Returns the axis. */
+struct gm_axis gm_chart_edges(const char *label, const double *values, size_t count, bool logarithmic,
+                              double *edges);
+
+/* ---- one scheme on a system ---- */
+
+/* Certifies a scheme, the first of the typed words, on a scene or a system with the others, key=value, from the
+   start of the first member. Called in a body of the arena, which closes what the certificate points to; leaves it
+   with a sentence and an exit status. */
+struct gm_certificate;
+struct gm_certificate gm_certify_words(struct gm_arena *arena, const char *system,
+                                       const struct gm_arguments *typed, int *status);
 
 #endif

@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/base/arguments.h"
@@ -12,6 +11,7 @@
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
+#include "core/arena.h"
 #include "core/memory.h"
 #include "render/files/images.h"
 #include "render/files/sink.h"
@@ -23,6 +23,7 @@ enum { PARAGRAPHS = 4 };
 static const double words_a_second = 2.7, settle_seconds = 1.5, end_seconds = 2;
 
 struct show {
+    struct gm_arena *arena;
     const struct gm_tour *tour;
     const struct gm_tour_output *output;
     const struct gm_tour_step *step;
@@ -31,19 +32,11 @@ struct show {
     struct gm_canvas *canvas;
     struct gm_picture *picture;
     struct gm_sink *sink;       /* the movie; NULL: pictures */
-    unsigned char *rgb;         /* the picture on display */
+    const unsigned char *rgb;   /* the picture on display */
     bool answered;              /* the step's question, if it has one, is answered */
     const struct gm_grid *grid; /* the study that is drawn instead of the scene, or NULL */
-    bool failed;
-    char message[GM_MESSAGE];
+    bool failed;                /* the growing diagram could not be shown */
 };
-
-static bool fail(struct show *show, const char *sentence)
-{
-    snprintf(show->message, sizeof show->message, "%s", sentence);
-    show->failed = true;
-    return false;
-}
 
 static double reading_seconds(const char *text)
 {
@@ -92,8 +85,8 @@ static bool paint(struct show *show)
     show->picture->told = told;
     show->picture->told_count = tell(show, told);
     show->picture->told_lines = 5;
-    return (gm_canvas_paint(show->canvas, show->picture, show->rgb) && !gm_memory_was_short()) ||
-           fail(show, "not enough memory to paint");
+    show->rgb = gm_canvas_paint(show->canvas, show->picture, NULL);
+    return show->rgb && !gm_memory_was_short();
 }
 
 /* Shows the current picture for `count` frames. Returns false after a failure, which the sink reports when
@@ -108,57 +101,62 @@ static bool put(struct show *show, long count)
     return true;
 }
 
+/* Paints the current state and shows it for `count` frames. */
+static void present(struct show *show, long count)
+{
+    gm_arena_refuse_if(show->arena, !paint(show), "not enough memory to paint");
+    if (!put(show, count)) {
+        gm_arena_leave(show->arena);
+    }
+}
+
 static long frames_of(const struct show *show, double seconds)
 {
     return (long)fmax(1, round(seconds * show->output->fps));
 }
 
-/* OUT/NAME-03.png, or OUT/NAME-03-question.png. */
-static bool write_page(struct show *show, const char *suffix)
+/* Writes OUT/NAME-03.png, or OUT/NAME-03-question.png, unless there is a movie. */
+static void write_page(struct show *show, const char *suffix)
 {
-    char path[4096];
+    char message[GM_MESSAGE];
     struct gm_session *session = &show->session;
     const struct gm_tour_output *output = show->output;
     const size_t number = (size_t)(show->step - show->tour->steps) + 1;
     if (show->sink) {
-        return true;
+        return;
     }
-    snprintf(path, sizeof path, "%s/%s-%02zu%s.png", output->folder ? output->folder : ".", show->tour->name,
-             number, suffix);
+    const char *path = gm_arena_print(show->arena, "%s/%s-%02zu%s.png", output->folder ? output->folder : ".",
+                                      show->tour->name, number, suffix);
     struct gm_provenance provenance = {0};
-    if (gm_provenance_make(&provenance, &session->log, &output->look, gm_canvas_backend(show->canvas)) &&
+    const bool made =
+        gm_provenance_make(&provenance, &session->log, &output->look, gm_canvas_backend(show->canvas)) &&
         gm_provenance_take_lanes(&provenance, (const struct gm_lane *const *)session->lanes, session->count,
-                                 false)) {
-        const struct gm_png image = {.width = output->look.width,
-                                     .height = output->look.height,
-                                     .dpi = output->look.dpi,
-                                     .pixels = show->rgb,
-                                     .texts = provenance.texts,
-                                     .text_count = provenance.count};
-        show->failed = !gm_png_write(path, &image, show->message);
-    } else {
-        fail(show, "not enough memory");
-    }
+                                 false);
+    const struct gm_png image = {.width = output->look.width,
+                                 .height = output->look.height,
+                                 .dpi = output->look.dpi,
+                                 .pixels = show->rgb,
+                                 .texts = provenance.texts,
+                                 .text_count = provenance.count};
+    const bool written = made && gm_png_write(path, &image, message);
     gm_provenance_close(&provenance);
-    return !show->failed;
+    gm_arena_need(show->arena, made);
+    gm_arena_check(show->arena, written, message);
 }
 
 /* ---- one step ---- */
 
-static bool open_scene(struct show *show)
+static void open_scene(struct show *show)
 {
-    if (!show->step->show) {
-        return true;
-    }
+    char message[GM_MESSAGE];
     if (show->open) {
         gm_session_close(&show->session);
     }
-    show->open = gm_session_open(&show->session, &show->step->request, show->message);
-    show->failed = !show->open;
-    return show->open;
+    show->open = gm_session_open(&show->session, &show->step->request, message);
+    gm_arena_check(show->arena, show->open, message);
 }
 
-static bool run(struct show *show)
+static void run(struct show *show)
 {
     const size_t number = (size_t)(show->step - show->tour->steps);
     const double begin = gm_tour_begin(show->tour, number), end = show->step->until;
@@ -175,24 +173,22 @@ static bool run(struct show *show)
             }
             more = limit < t;
             gm_agenda_keep(&agenda, &show->session, message);
-            if (message[0]) {
-                return fail(show, message);
-            }
+            gm_arena_check(show->arena, !message[0], message);
         }
-        if ((show->sink || k == count) && (!paint(show) || !put(show, 1))) {
-            return false;
+        if (show->sink || k == count) {
+            present(show, 1);
         }
     }
-    return true;
 }
 
-/* Draws the growing diagram: each point has the same number of frames, for the step's time in all. */
+/* Draws the growing diagram: each point has the same number of frames, for the step's time in all. It is called from
+   within the measurement, which must end before the body is left. */
 static void grow(void *self, const char *what, size_t done, size_t all)
 {
     struct show *show = self;
     (void)what;
-    if (show->sink && done > 0 && !show->failed && paint(show)) {
-        show->failed = !put(show, frames_of(show, show->step->seconds / (double)all));
+    if (show->sink && done > 0 && !show->failed) {
+        show->failed = !paint(show) || !put(show, frames_of(show, show->step->seconds / (double)all));
     }
 }
 
@@ -201,87 +197,83 @@ static bool has_failed(void *self)
     return ((const struct show *)self)->failed;
 }
 
-static bool measure(struct show *show)
+static void measure(struct show *show)
 {
+    char message[GM_MESSAGE];
     const struct gm_listener listener = {.report = grow, .stopped = has_failed, .self = show};
-    struct gm_arguments words = {0};
-    struct gm_grid grid;
-    bool measured = false;
-    if (!gm_arguments_split(&words, show->step->study_words)) {
-        fail(show, "not enough memory");
-    } else if (gm_grid_open(&grid, show->step->study, &words, NULL, show->message)) {
-        show->grid = &grid;
-        measured = gm_grid_measure(&grid, &listener, show->message) && paint(show) && write_page(show, "") &&
-                   put(show, frames_of(show, end_seconds));
-        gm_grid_close(&grid);
+    const struct gm_arguments *words = gm_arguments_of(show->arena, show->step->study_words);
+    struct gm_grid *grid = gm_arena_take(show->arena, 1, sizeof *grid);
+    gm_arena_check(show->arena, gm_grid_open(grid, show->step->study, words, NULL, message), message);
+    show->grid = gm_arena_keep(show->arena, grid, gm_grid_close);
+    const bool measured = gm_grid_measure(grid, &listener, message);
+    gm_arena_check(show->arena, measured || gm_interrupted, message);
+    if (measured) {
+        present(show, frames_of(show, end_seconds));
+        write_page(show, "");
     }
+    gm_arena_drop(show->arena, grid);
     show->grid = NULL;
-    show->failed = show->failed || (!measured && !gm_interrupted);
-    gm_arguments_close(&words);
-    return measured;
 }
 
-static bool play(struct show *show, const struct gm_tour_step *step)
+static void play(struct show *show, const struct gm_tour_step *step)
 {
     show->step = step;
     show->answered = false;
-    if (!open_scene(show)) {
-        return false;
+    if (step->show) {
+        open_scene(show);
     }
     if (step->ask) {
         const double seconds = reading_seconds(step->say) + reading_seconds(step->ask) + settle_seconds;
-        if (!paint(show) || !put(show, frames_of(show, seconds)) || !write_page(show, "-question")) {
-            return false;
-        }
+        present(show, frames_of(show, seconds));
+        write_page(show, "-question");
     }
     show->answered = true;
     const double reading =
         reading_seconds(step->ask ? step->answer : step->say) + reading_seconds(step->watch);
     /* one looks while one reads, but not at the very beginning */
-    if (!paint(show) || !put(show, frames_of(show, fmin(reading / 2, 4)))) {
-        return false;
+    present(show, frames_of(show, fmin(reading / 2, 4)));
+    if (step->study != GM_STUDY_NONE) {
+        measure(show);
+        return;
     }
-    if (step->study != GM_STUDY_NONE && !measure(show)) {
-        return false;
+    run(show);
+    if (!put(show, frames_of(show, fmax(end_seconds, reading / 2 - step->seconds)))) {
+        gm_arena_leave(show->arena);
     }
-    const double rest = step->study != GM_STUDY_NONE ? 0 : fmax(end_seconds, reading / 2 - step->seconds);
-    return step->study != GM_STUDY_NONE ||
-           (run(show) && put(show, frames_of(show, rest)) && write_page(show, ""));
+    write_page(show, "");
 }
 
-static bool open_show(struct show *show)
+static void play_all(struct gm_arena *arena, void *data)
 {
+    struct show *show = data;
+    const struct gm_tour *tour = show->tour;
     const struct gm_tour_output *output = show->output;
-    show->canvas = gm_canvas_open(&output->look, show->message);
+    char message[GM_MESSAGE];
+    show->canvas = gm_canvas_open(&output->look, message);
+    gm_arena_check(arena, show->canvas, message);
     show->picture = gm_picture_open();
-    show->rgb = malloc(3 * (size_t)output->look.width * (size_t)output->look.height);
-    if (!show->canvas) {
-        return false;
-    }
-    if (!show->picture || !show->rgb) {
-        return fail(show, "not enough memory");
-    }
+    gm_arena_need(arena, show->picture);
     if (output->movie) {
         const struct gm_sink_settings settings = {.width = output->look.width,
                                                   .height = output->look.height,
-                                                  .fps = show->output->fps,
+                                                  .fps = output->fps,
                                                   .interruptions = &gm_interrupted};
-        if (gm_folder_make_for(output->movie, show->message)) {
-            show->sink = gm_sink_open_movie(output->movie, &settings, show->message);
-        }
-        return show->sink != NULL;
+        gm_arena_check(arena, gm_folder_make_for(output->movie, message), message);
+        show->sink = gm_sink_open_movie(output->movie, &settings, message);
+        gm_arena_check(arena, show->sink, message);
+    } else {
+        gm_arena_check(arena, gm_folder_make(output->folder, message), message);
     }
-    return gm_folder_make(output->folder, show->message);
+    for (size_t i = 0; i < tour->count && !gm_interrupted; i++) {
+        gm_listener_hears(&gm_terminal_listener, tour->steps[i].title, i + 1, tour->count);
+        play(show, &tour->steps[i]);
+    }
 }
 
 int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *output)
 {
-    struct show show = {.tour = tour, .output = output};
-    bool played = open_show(&show);
-    for (size_t i = 0; i < tour->count && played && !gm_interrupted; i++) {
-        gm_listener_hears(&gm_terminal_listener, tour->steps[i].title, i + 1, tour->count);
-        played = play(&show, &tour->steps[i]);
-    }
+    struct show show = {.arena = gm_arena_open(), .tour = tour, .output = output};
+    bool played = gm_arena_run(show.arena, play_all, &show);
     gm_terminal_listener_clear();
     if (show.open) {
         gm_session_close(&show.session);
@@ -293,7 +285,7 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *outp
     if (!made) {
         gm_complain("%s", failure);
     } else if (!played && !gm_interrupted) {
-        gm_complain("%s", show.message);
+        gm_complain("%s", gm_arena_reason(show.arena));
     }
     played = played && made;
     if (played && !gm_interrupted && output->movie) {
@@ -302,7 +294,7 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *outp
         gm_complain("wrote %s/%s-*.png", output->folder ? output->folder : ".", tour->name);
     }
     gm_picture_close(show.picture);
-    free(show.rgb);
     gm_canvas_close(show.canvas);
+    gm_arena_close(show.arena);
     return gm_interrupted ? GM_EXIT_INTERRUPTED : played ? GM_EXIT_OK : GM_EXIT_FILE;
 }

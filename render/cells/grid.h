@@ -54,18 +54,12 @@ struct gm_raster {
     int clip_left, clip_top, clip_right, clip_bottom;
 };
 
-bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme);
+/* Makes the paper of a raster that has its size, units, scale and theme. Returns false when out of memory. */
+bool gm_raster_open(struct gm_raster *raster);
 void gm_raster_close(struct gm_raster *raster);
 
-/* Sub-pixels as characters. */
-
-/* The sub-pixels of a cell; `sharp`: they are only on or off. */
-void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp);
-
-/* Turns the raster into glyphs with two colours each. Braille draws lines well and areas badly, so it takes
-   areas from a second raster, made for GM_QUADRANTS; NULL for other blocks. */
-void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, const struct gm_raster *areas,
-                      enum gm_blocks blocks);
+/* The glyphs of sets of quarters; bits: upper left, upper right, lower left, lower right. */
+extern const uint16_t gm_quadrants[16];
 
 /* Marks on the raster. */
 
@@ -79,5 +73,16 @@ void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_ro
 
 /* Draws the colour map from bottom to top. */
 void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);
+
+/* The terminal painter: pictures to character cells. Text is text; marks are half blocks, quadrants, braille
+   or ASCII. It knows no terminal: app/ writes the cells to one. */
+
+/* Paints the picture over all cells (at least 1 x 1). Returns false when out of memory. */
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks);
+
+/* Returns the spot in the middle of a cell of a painted picture. */
+struct gm_spot gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                               enum gm_blocks blocks, int column, int row);
 
 #endif

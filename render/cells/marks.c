@@ -8,31 +8,23 @@
 
 #include "render/grow.h"
 
-bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme)
+bool gm_raster_open(struct gm_raster *raster)
 {
-    size_t count = (size_t)width * (size_t)height;
-    *raster = (struct gm_raster){.width = width,
-                                 .height = height,
-                                 .unit_x = 1,
-                                 .unit_y = 1,
-                                 .scale = 1,
-                                 .theme = theme,
-                                 .at = malloc(count * sizeof *raster->at),
-                                 .mask = calloc(count, 1),
-                                 .left = width,
-                                 .top = height,
-                                 .clip_right = width,
-                                 .clip_bottom = height};
+    const size_t width = (size_t)raster->width, height = (size_t)raster->height;
+    raster->at = malloc(width * height * sizeof *raster->at);
+    raster->mask = calloc(width * height, 1);
+    raster->left = raster->clip_right = raster->width;
+    raster->top = raster->clip_bottom = raster->height;
     if (!raster->at || !raster->mask) {
         gm_raster_close(raster);
         return false;
     }
-    struct gm_subpixel paper = {gm_theme_colour(theme, GM_PAPER), GM_LEVEL_PAPER, GM_PAPER};
-    for (int i = 0; i < width; i++) {
+    struct gm_subpixel paper = {gm_theme_colour(raster->theme, GM_PAPER), GM_LEVEL_PAPER, GM_PAPER};
+    for (size_t i = 0; i < width; i++) {
         raster->at[i] = paper;
     }
-    for (int row = 1; row < height; row++) {
-        memcpy(&raster->at[(size_t)row * (size_t)width], raster->at, (size_t)width * sizeof paper);
+    for (size_t row = 1; row < height; row++) {
+        memcpy(&raster->at[row * width], raster->at, width * sizeof paper);
     }
     return true;
 }
@@ -490,30 +482,31 @@ bool gm_marks_draw(struct gm_raster *raster, const struct gm_axes *axes, const s
         return true;
     }
     clip_to(raster, &axes->box);
+    enum gm_level level = outline ? GM_LEVEL_FILL : GM_LEVEL_LINE;
+    bool ok = true;
     switch (mark->kind) {
     case GM_MARK_LINE:
         draw_line(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE, mark->style.role);
-        return true;
+        break;
     case GM_MARK_POINTS:
         draw_points(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
-        return true;
-    case GM_MARK_POLYGON: {
-        bool ok = draw_polygon(raster, axes, mark);
-        settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
-        return ok;
-    }
+        level = GM_LEVEL_LINE;
+        break;
+    case GM_MARK_POLYGON:
+        ok = draw_polygon(raster, axes, mark);
+        level = GM_LEVEL_FILL;
+        break;
     case GM_MARK_MESH:
         draw_mesh(raster, axes, mark);
-        return true;
+        break;
     case GM_MARK_IMAGE:
         draw_image(raster, axes, mark);
-        return true;
+        break;
     case GM_MARK_TEXT:
-        return true;
+        break;
     }
-    return true;
+    settle(raster, colour, mark->style.alpha, level, mark->style.role);
+    return ok;
 }
 
 void gm_marks_rule(struct gm_raster *raster, const double from_to[4], enum gm_role role, int gap)

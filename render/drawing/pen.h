@@ -7,7 +7,6 @@
 
 #include "render/drawing/glyphs.h"
 #include "render/layout/appearance.h"
-#include "render/layout/layout.h"
 #include "render/layout/panel.h"
 #include "render/message.h"
 
@@ -16,6 +15,16 @@
 struct gm_point {
     float x, y;
 };
+
+static inline struct gm_point gm_point_minus(struct gm_point a, struct gm_point b)
+{
+    return (struct gm_point){a.x - b.x, a.y - b.y};
+}
+
+static inline float gm_point_dot(struct gm_point a, struct gm_point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
 
 struct gm_polyline {
     struct gm_point *points;
@@ -113,15 +122,11 @@ struct gm_painter {
     struct gm_polyline line, piece;
 };
 
-/* marks.c: everything of a panel's data except its texts. */
-void gm_paint_marks(struct gm_painter *painter, const struct gm_axes *axes);
-
 /* The layout's view of the fonts; the painter is its self. */
 struct gm_metrics gm_painter_metrics(const struct gm_painter *painter);
 
-/* cells.c: the screen of a terminal. A cell has GM_CELL_WIDTH x GM_CELL_HEIGHT pixels. */
+/* A cell of the screen of a terminal has GM_CELL_WIDTH x GM_CELL_HEIGHT pixels. */
 enum { GM_CELL_WIDTH = 9, GM_CELL_HEIGHT = 18 };
-void gm_paint_cells(struct gm_painter *painter, const struct gm_cells *cells);
 
 /* A page that is drawn with one pen in one look, as often as its picture changes. */
 

@@ -92,16 +92,6 @@ static float cross(struct gm_point a, struct gm_point b)
     return a.x * b.y - a.y * b.x;
 }
 
-static float dot(struct gm_point a, struct gm_point b)
-{
-    return a.x * b.x + a.y * b.y;
-}
-
-static struct gm_point minus(struct gm_point a, struct gm_point b)
-{
-    return (struct gm_point){a.x - b.x, a.y - b.y};
-}
-
 /* All lines from a kept point to later points must pass the points between within the tolerance: they lie in
    a wedge that every point narrows. A point outside the wedge, or nearer than the one before, ends it. */
 void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
@@ -117,13 +107,13 @@ void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
     bool wedge = false;
     for (size_t i = 1; i < line->count; i++) {
         const struct gm_point point = points[i];
-        struct gm_point way = minus(point, anchor);
-        float square = dot(way, way);
+        struct gm_point way = gm_point_minus(point, anchor);
+        float square = gm_point_dot(way, way);
         const bool outside = wedge && (cross(left, way) > 0.0f || cross(right, way) < 0.0f || square < reach);
         if (outside) {
             points[kept++] = anchor = last;
-            way = minus(point, anchor);
-            square = dot(way, way);
+            way = gm_point_minus(point, anchor);
+            square = gm_point_dot(way, way);
             wedge = false;
         }
         if (square > tolerance * tolerance) {
@@ -148,7 +138,7 @@ void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
 
 static float distance(struct gm_point a, struct gm_point b)
 {
-    return sqrtf(dot(minus(a, b), minus(a, b)));
+    return sqrtf(gm_point_dot(gm_point_minus(a, b), gm_point_minus(a, b)));
 }
 
 static size_t segments_of(const struct gm_polyline *line)

@@ -50,11 +50,8 @@ bool gm_png_tells(const char *path, const char *key, const char *text);
 /* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first); false with a sentence. */
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
 
-/* Returns the characters that `size` bytes become, padded. */
-size_t gm_base64_size(size_t size);
-
-/* Writes bytes in base64 (RFC 4648), gm_base64_size characters without a final zero. */
-void gm_base64(const unsigned char *bytes, size_t size, char *text);
+/* Writes bytes in base64 (RFC 4648), padded. */
+void gm_base64_put(const void *data, size_t size, FILE *out);
 
 /* Pictures of pixels among the text of a terminal, as bytes to send. A picture fills whole character cells.
    After the first picture only the parts that changed are sent. */
@@ -87,19 +84,5 @@ bool gm_inline_encode(struct gm_inline *image, const unsigned char *rgb, bool wh
 
 /* Returns the bytes that remove such pictures; "" if text written over them does. */
 const char *gm_inline_removal(enum gm_inline_kind kind);
-
-/* Sixels: pictures of up to 256 colours for terminals in the tradition of the VT340 (DEC, VT330/VT340
-   Programmer Reference Manual, vol. 2, chapter 14). The colours are chosen for each picture. */
-
-struct gm_sixel;
-
-/* Returns NULL when out of memory. */
-struct gm_sixel *gm_sixel_open(void);
-void gm_sixel_close(struct gm_sixel *sixel);
-
-/* Encodes width x height pixels of 3 bytes each, `stride` bytes from row to row. Returns false when out of memory,
-   which `out` may report, too. */
-bool gm_sixel_encode(struct gm_sixel *sixel, const unsigned char *rgb, size_t stride, int width, int height,
-                     FILE *out);
 
 #endif

@@ -14,13 +14,11 @@
 /* A frame is in `queue` from put until a worker takes it, and in `idle` while it is unused. There are at most
    `limit` frames, made at need: put never waits, gm_sink_frame does. */
 
-enum { STACK = 8 << 20 /* bytes of a thread's stack */ };
-
-struct job {
-    unsigned char *frame;
-    long number;
-    struct gm_png_text *texts;
-    size_t text_count;
+enum {
+    STACK = 8 << 20, /* bytes of a thread's stack */
+    MOST_WORKERS = 64,
+    MOST_FRAMES = MOST_WORKERS + 2,
+    MOST_DIGITS = 64,
 };
 
 struct gm_sink {
@@ -31,11 +29,11 @@ struct gm_sink {
     pthread_cond_t work;   /* signals workers: a job, or the end */
     pthread_cond_t vacant; /* signals gm_sink_frame: an idle frame, or a failure */
     size_t limit, made, idle_count, queued, head;
-    unsigned char **frames, **idle; /* all frames made; the unused ones */
-    struct job *queue;              /* a ring of `limit` jobs */
+    unsigned char *frames[MOST_FRAMES], *idle[MOST_FRAMES]; /* all frames made; the unused ones */
+    struct gm_sink_job queue[MOST_FRAMES];                  /* a ring of `limit` jobs */
     bool closing, dropping, failed;
     int worker_count;
-    pthread_t *workers;
+    pthread_t workers[MOST_WORKERS];
     char message[GM_MESSAGE];
 };
 
@@ -84,15 +82,14 @@ static void *work(void *argument)
         if (sink->queued == 0) {
             break;
         }
-        struct job job = sink->queue[sink->head];
+        struct gm_sink_job job = sink->queue[sink->head];
         sink->head = (sink->head + 1) % sink->limit;
         sink->queued--;
         bool wanted = !sink->failed && !sink->dropping;
         pthread_mutex_unlock(&sink->lock);
 
         char message[GM_MESSAGE] = "";
-        bool done = !wanted ||
-                    sink->kind->frame(sink->self, job.frame, job.number, job.texts, job.text_count, message);
+        const bool done = !wanted || sink->kind->write(sink->self, &job, message);
         free_texts(job.texts, job.text_count);
 
         pthread_mutex_lock(&sink->lock);
@@ -111,10 +108,6 @@ static void release(struct gm_sink *sink)
     for (size_t i = 0; i < sink->made; i++) {
         free(sink->frames[i]);
     }
-    free(sink->frames);
-    free(sink->idle);
-    free(sink->queue);
-    free(sink->workers);
     pthread_mutex_destroy(&sink->lock);
     pthread_cond_destroy(&sink->work);
     pthread_cond_destroy(&sink->vacant);
@@ -156,12 +149,8 @@ struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int w
         sink->kind = kind;
         sink->self = self;
         sink->frame_size = frame_size;
-        sink->limit = (size_t)workers + 2;
-        sink->frames = calloc(sink->limit, sizeof *sink->frames);
-        sink->idle = calloc(sink->limit, sizeof *sink->idle);
-        sink->queue = calloc(sink->limit, sizeof *sink->queue);
-        sink->workers = calloc((size_t)workers, sizeof *sink->workers);
-        if (sink->frames && sink->idle && sink->queue && sink->workers && start_workers(sink, workers)) {
+        sink->limit = (size_t)workers + MOST_FRAMES - MOST_WORKERS;
+        if (start_workers(sink, workers)) {
             return sink;
         }
         release(sink);
@@ -203,7 +192,7 @@ bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const 
     bool taken = !sink->failed;
     if (taken) {
         sink->queue[(sink->head + sink->queued) % sink->limit] =
-            (struct job){.frame = frame, .number = number, .texts = copy, .text_count = count};
+            (struct gm_sink_job){.frame = frame, .number = number, .texts = copy, .text_count = count};
         sink->queued++;
         pthread_cond_signal(&sink->work);
     } else {
@@ -259,8 +248,6 @@ bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
 
 /* ---- PNG files ---- */
 
-enum { MOST_WORKERS = 64, MOST_DIGITS = 64 };
-
 /* The pattern is parsed and not given to printf, because the user may have put a % into the folder's name. */
 struct png_sink {
     char *pattern;
@@ -307,23 +294,22 @@ static char *format_path(const struct png_sink *self, long number)
     return path;
 }
 
-static bool write_frame(void *argument, const unsigned char *rgb, long number,
-                        const struct gm_png_text *texts, size_t count, char *message)
+static bool write_frame(void *argument, const struct gm_sink_job *job, char *message)
 {
     const struct png_sink *self = argument;
-    size_t total = self->text_count + count;
+    size_t total = self->text_count + job->text_count;
     struct gm_png_text *all = calloc(total ? total : 1, sizeof *all);
-    char *path = format_path(self, number);
+    char *path = format_path(self, job->number);
     bool written = false;
     if (all && path) {
         memcpy(all, self->texts, self->text_count * sizeof *all);
-        for (size_t i = 0; i < count; i++) {
-            all[self->text_count + i] = texts[i];
+        for (size_t i = 0; i < job->text_count; i++) {
+            all[self->text_count + i] = job->texts[i];
         }
         const struct gm_png image = {.width = self->width,
                                      .height = self->height,
                                      .dpi = self->dpi,
-                                     .pixels = rgb,
+                                     .pixels = job->frame,
                                      .texts = all,
                                      .text_count = total};
         written = gm_png_write(path, &image, message);
@@ -354,7 +340,7 @@ static int count_processors(void)
 
 struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_settings *settings, char *message)
 {
-    static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_png};
+    static const struct gm_sink_kind kind = {.write = write_frame, .close = close_png};
     struct png_sink *self = calloc(1, sizeof *self);
     if (!self) {
         gm_refuse(message, "not enough memory to write frames");

@@ -51,16 +51,23 @@ bool gm_sink_flush(struct gm_sink *sink);
    false with the sentence of the first failure. */
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message);
 
+/* A frame that was put, and its texts. */
+struct gm_sink_job {
+    unsigned char *frame;
+    long number;
+    struct gm_png_text *texts;
+    size_t text_count;
+};
+
 /* A kind of sink defines what becomes of a frame; the queue is the same for all. */
 struct gm_sink_kind {
     /* Called in a worker thread, with one worker in the order in which frames were put. */
-    bool (*frame)(void *self, const unsigned char *rgb, long number, const struct gm_png_text *texts,
-                  size_t count, char *message);
+    bool (*write)(void *self, const struct gm_sink_job *job, char *message);
     /* Called once, with no worker left; frees self. `keep` is false if the sink is given up or has failed. */
     bool (*close)(void *self, bool keep, char *message);
 };
 
-/* Takes self over, also on failure: then NULL with a sentence. */
+/* Takes self over, also on failure: then NULL with a sentence. There are at most 64 workers. */
 struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
                               char *message);
 

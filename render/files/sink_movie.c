@@ -244,13 +244,11 @@ static bool tell(struct movie_sink *self, int status, char *message)
     return false;
 }
 
-static bool write_frame(void *argument, const unsigned char *rgb, long number,
-                        const struct gm_png_text *texts, size_t count, char *message)
+/* A movie has the order in which frames are put, and no texts. */
+static bool write_frame(void *argument, const struct gm_sink_job *job, char *message)
 {
     struct movie_sink *self = argument;
-    (void)number; /* a movie has the order in which frames are put, and no texts */
-    (void)texts;
-    (void)count;
+    const unsigned char *rgb = job->frame;
     size_t left = (size_t)self->width * (size_t)self->height * 3;
     while (left > 0) {
         ssize_t written = write(self->input, rgb, left);
@@ -477,7 +475,7 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
 
 struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settings *settings, char *message)
 {
-    static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_movie};
+    static const struct gm_sink_kind kind = {.write = write_frame, .close = close_movie};
     enum format format = MP4;
     if (!find_format(path, &format)) {
         gm_refuse(message, "a movie is an .mp4, .webm or .gif file, which %.*s is not", PATH_SHOWN, path);

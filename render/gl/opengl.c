@@ -163,6 +163,15 @@ static bool stream_open(struct stream *stream, const struct gl *gl, char *messag
     return true;
 }
 
+/* Sets how the bound texture is read: by that filter, and beyond its edges like the edges. */
+static void set_texture(const struct gl *gl, GLint filter)
+{
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 /* Returns a texture that no image of this frame uses yet; 0 when out of memory. */
 static GLuint next_texture(struct stream *stream)
 {
@@ -175,10 +184,7 @@ static GLuint next_texture(struct stream *stream)
         stream->images = images;
         gl->GenTextures(1, &images[stream->image_count]);
         gl->BindTexture(GL_TEXTURE_2D, images[stream->image_count++]);
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        set_texture(gl, GL_LINEAR);
     }
     const GLuint texture = stream->images[stream->images_used++];
     gl->BindTexture(GL_TEXTURE_2D, texture);
@@ -365,14 +371,6 @@ static bool framebuffer_open(struct gm_opengl *opengl, char *message)
     return false;
 }
 
-static void texture_parameters(const struct gl *gl)
-{
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
 static void textures_open(struct gm_opengl *opengl)
 {
     const struct gl *gl = &opengl->engine->gl;
@@ -388,11 +386,11 @@ static void textures_open(struct gm_opengl *opengl)
     gl->GenTextures(1, &opengl->atlas);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, opengl->atlas);
-    texture_parameters(gl);
+    set_texture(gl, GL_NEAREST);
     gl->GenTextures(1, &opengl->maps);
     gl->ActiveTexture(GL_TEXTURE1);
     gl->BindTexture(GL_TEXTURE_2D, opengl->maps);
-    texture_parameters(gl);
+    set_texture(gl, GL_NEAREST);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
 }
 

@@ -22,7 +22,7 @@ static inline int gm_rgb_distance(struct gm_rgb a, struct gm_rgb b)
     return 2 * r * r + 4 * g * g + 3 * blue * blue;
 }
 
-/* Returns the colour of a role in a theme; render/layout/theme.c describes the choice of lane colours. */
+/* Returns the colour of a role in a theme; render/layout/appearance.c describes the choice of lane colours. */
 struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role);
 
 /* Returns the colour of a map at 0 <= x <= 1; x is clamped. */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The layout of a picture on a surface of given size. */
-#include "render/layout/layout.h"
+#include "render/layout/panel.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-#include "render/layout/panel.h"
 
 /* Distances in pixels of a picture 720 high. */
 static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0, header_gap = 18.0,
@@ -655,8 +653,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     return layout;
 }
 
-const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double across, double down, double *x,
-                                        double *y)
+struct gm_spot gm_layout_locate(const struct gm_layout *layout, double across, double down)
 {
     for (size_t i = 0; layout && i < layout->frame_count; i++) {
         const struct gm_axes *axes = &layout->frames[i];
@@ -664,10 +661,9 @@ const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double a
         if (axes->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
             down >= box->y && down <= box->y + box->height && axes->panel->x.scale != GM_LOG &&
             axes->panel->y.scale != GM_LOG) {
-            *x = (across - axes->x_origin) / axes->x_factor;
-            *y = (down - axes->y_origin) / axes->y_factor;
-            return axes->panel;
+            return (struct gm_spot){axes->panel, (across - axes->x_origin) / axes->x_factor,
+                                    (down - axes->y_origin) / axes->y_factor};
         }
     }
-    return NULL;
+    return (struct gm_spot){NULL, 0.0, 0.0};
 }

@@ -70,6 +70,12 @@ struct gm_axes { /* a panel on the surface */
     size_t bar_tick_count;
 };
 
+/* A place in a state's panel, in units of its axes. The panel is NULL beside all states, and on logarithmic axes. */
+struct gm_spot {
+    const struct gm_panel *panel;
+    double x, y;
+};
+
 /* Returns the part of a text's width on the left of its anchor: 0, 1/2 or 1. */
 double gm_anchor_share(enum gm_anchor anchor);
 
@@ -202,5 +208,21 @@ void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct
    other `count` frames. */
 void gm_axes_note(struct gm_label_list *list, const struct gm_axes *axes, size_t count, size_t own,
                   const struct gm_mark *mark);
+
+/* The layout of a picture on a surface of given size, the same for all painters. */
+
+struct gm_layout {
+    struct gm_axes *frames;
+    size_t frame_count;
+    struct gm_label *labels; /* all texts, even those among the marks and of ticks */
+    size_t label_count;
+};
+
+/* Lays the picture out. The result lives in the picture's arena until its next clear; NULL when out of
+   memory. Labels never overlap or leave the surface: a label without room is left out. */
+const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics);
+
+/* Returns the spot at a place of the surface. */
+struct gm_spot gm_layout_locate(const struct gm_layout *layout, double across, double down);
 
 #endif

@@ -7,7 +7,7 @@
 #include "render/picture/picture.h"
 
 /* The painter of pixels: pictures to rows of bytes, without a screen. A canvas has one look, whose title
-   outlives it, and is used by one thread at a time. The rasteriser (render/pixels/rasteriser.h) draws the
+   outlives it, and is used by one thread at a time. Its own rasteriser draws the
    same bits on every machine with the same fonts. The alternative is OpenGL (render/gl/opengl.h). */
 
 struct gm_canvas;
@@ -27,13 +27,14 @@ void gm_canvas_settle(void);
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);
 
-/* Paints the picture into rgb: height rows of width * 3 bytes, top row first. Returns false when out of
-   memory. */
-bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb);
+/* Paints the picture into rgb, or if that is NULL into pixels of the canvas, which the next picture overwrites: height
+   rows of width * 3 bytes, top row first. Returns them; NULL when out of memory. */
+const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture,
+                                     unsigned char *rgb);
 
-/* Returns the state's panel at a pixel, as gm_layout_locate does. */
-const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
-                                        double down, double *x, double *y);
+/* Returns the spot at a pixel. */
+struct gm_spot gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                double down);
 
 /* The name of the painter, up to a comma a word for gm_canvas_choose: "own", or "osmesa, OpenGL 4.5, llvmpipe
    (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */

@@ -3,11 +3,135 @@
 #include "render/triangles/triangles.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "render/grow.h"
+
+/* ---- the batch: one stream of vertices and a short list of draw calls for a whole frame ---- */
+
+void gm_batch_clear(struct gm_batch *batch)
+{
+    batch->vertex_count = batch->index_count = batch->call_count = batch->join = 0;
+    batch->once = 0;
+    batch->short_of_memory = false;
+    batch->program = GM_PROGRAM_INK;
+    batch->stencil = GM_STENCIL_NONE;
+    batch->image = NULL;
+}
+
+static void set_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil)
+{
+    batch->program = program;
+    batch->stencil = stencil;
+}
+
+static bool room_for(struct gm_batch *batch, void *block, size_t *capacity, size_t wanted, size_t size)
+{
+    const size_t first = 4096;
+    const bool grown = gm_grow(block, capacity, wanted > first ? wanted : first, size);
+    batch->short_of_memory = batch->short_of_memory || !grown;
+    return grown;
+}
+
+/* Returns the call for the current state, a new one if the last differs, or NULL. */
+static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
+{
+    if (batch->call_count > 0 && !indexed) {
+        struct gm_draw_call *last = &batch->calls[batch->call_count - 1];
+        if (!last->indexed && last->program == batch->program && last->stencil == batch->stencil &&
+            (last->stencil != GM_STENCIL_ONCE || last->once == batch->once) && last->image == batch->image &&
+            memcmp(last->scissor, batch->scissor, sizeof last->scissor) == 0) {
+            return last;
+        }
+    }
+    if (!room_for(batch, &batch->calls, &batch->call_capacity, batch->call_count + 1, sizeof *batch->calls)) {
+        return NULL;
+    }
+    struct gm_draw_call *call = &batch->calls[batch->call_count++];
+    *call = (struct gm_draw_call){.program = batch->program,
+                                  .stencil = batch->stencil,
+                                  .indexed = indexed,
+                                  .once = batch->once,
+                                  .image = batch->image,
+                                  .first = indexed ? batch->index_count : batch->vertex_count};
+    memcpy(call->scissor, batch->scissor, sizeof call->scissor);
+    return call;
+}
+
+/* Returns room for a strip of at most count vertices, not connected to the strip before; NULL when out of
+   memory. end_strip ends the strip and drops its last `unused` vertices. */
+static struct gm_vertex *add_strip(struct gm_batch *batch, size_t count)
+{
+    const size_t joint = 2; /* vertices of the degenerate triangles between two strips */
+    if (!room_for(batch, &batch->vertices, &batch->vertex_capacity, batch->vertex_count + count + joint,
+                  sizeof *batch->vertices)) {
+        return NULL;
+    }
+    struct gm_draw_call *call = call_for(batch, false);
+    if (!call) {
+        return NULL;
+    }
+    batch->join = 0;
+    if (call->count > 0) {
+        batch->vertices[batch->vertex_count] = batch->vertices[batch->vertex_count - 1];
+        batch->join = batch->vertex_count + 1;
+        batch->vertex_count += joint;
+        call->count += joint;
+    }
+    struct gm_vertex *strip = batch->vertices + batch->vertex_count;
+    batch->vertex_count += count;
+    call->count += count;
+    return strip;
+}
+
+static void end_strip(struct gm_batch *batch, size_t unused)
+{
+    batch->vertex_count -= unused;
+    batch->calls[batch->call_count - 1].count -= unused;
+    if (batch->join > 0) {
+        batch->vertices[batch->join] = batch->vertices[batch->join + 1];
+    }
+}
+
+/* Adds a strip of four vertices. */
+static void add_quad(struct gm_batch *batch, const struct gm_vertex corners[4])
+{
+    struct gm_vertex *strip = add_strip(batch, 4);
+    if (strip) {
+        memcpy(strip, corners, 4 * sizeof *strip);
+        end_strip(batch, 0);
+    }
+}
+
+/* Returns room for vertices and the triangles among them (indices count from the first of these); NULL when
+   out of memory. */
+static struct gm_vertex *add_mesh(struct gm_batch *batch, size_t count, size_t index_count,
+                                  uint32_t **indices)
+{
+    if (!room_for(batch, &batch->vertices, &batch->vertex_capacity, batch->vertex_count + count,
+                  sizeof *batch->vertices) ||
+        !room_for(batch, &batch->indices, &batch->index_capacity, batch->index_count + index_count,
+                  sizeof *batch->indices)) {
+        return NULL;
+    }
+    struct gm_draw_call *call = call_for(batch, true);
+    if (!call) {
+        return NULL;
+    }
+    call->count = index_count;
+    *indices = batch->indices + batch->index_count;
+    batch->index_count += index_count;
+    struct gm_vertex *vertices = batch->vertices + batch->vertex_count;
+    batch->vertex_count += count;
+    return vertices;
+}
 
 void gm_brush_free(struct gm_brush *brush)
 {
-    gm_batch_free(&brush->batch);
+    free(brush->batch.vertices);
+    free(brush->batch.indices);
+    free(brush->batch.calls);
     gm_polyline_free(&brush->dash);
 }
 
@@ -32,21 +156,11 @@ static struct rgba rgba_of(struct gm_ink ink, double faint)
     return (struct rgba){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
 }
 
-static struct gm_point minus(struct gm_point a, struct gm_point b)
-{
-    return (struct gm_point){a.x - b.x, a.y - b.y};
-}
-
-static float dot(struct gm_point a, struct gm_point b)
-{
-    return a.x * b.x + a.y * b.y;
-}
-
 /* Returns the direction of a segment, and its length. */
 static struct gm_point direction(struct gm_point from, struct gm_point to, float *length)
 {
-    const struct gm_point way = minus(to, from);
-    *length = sqrtf(dot(way, way));
+    const struct gm_point way = gm_point_minus(to, from);
+    *length = sqrtf(gm_point_dot(way, way));
     return *length > 0.0f ? (struct gm_point){way.x / *length, way.y / *length}
                           : (struct gm_point){1.0f, 0.0f};
 }
@@ -71,7 +185,7 @@ static struct joint joint_at(const struct gm_polyline *line, size_t i, float rea
     struct joint joint;
     joint.before = direction(p[(i + n - 1) % n], p[i], &length);
     joint.after = direction(p[i], p[(i + 1) % n], &next);
-    const float cosine = dot(joint.before, joint.after);
+    const float cosine = gm_point_dot(joint.before, joint.after);
     /* The inner side of the mitre must not take up half of a neighbouring segment. */
     const float inner = reach * reach * (1.0f - cosine), shorter = 0.5f * fminf(length, next);
     joint.mitred = cosine > sharpest && inner <= shorter * shorter * (1.0f + cosine);
@@ -111,7 +225,7 @@ static struct gm_point normal(struct gm_point way)
 static struct gm_point mitre(struct joint joint)
 {
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
-    const float scale = 1.0f / (1.0f + dot(a, b));
+    const float scale = 1.0f / (1.0f + gm_point_dot(a, b));
     return (struct gm_point){scale * (a.x + b.x), scale * (a.y + b.y)};
 }
 
@@ -126,7 +240,7 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
 {
     const float reach = half + fringe;
     const size_t n = line->count;
-    struct gm_vertex *strip = gm_batch_strip(batch, 2 * (segments + 3));
+    struct gm_vertex *strip = add_strip(batch, 2 * (segments + 3));
     if (!strip) {
         return;
     }
@@ -142,14 +256,14 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
     way = direction(p[(first + segments - 1) % n], end, &length);
     put_sides(strip, end, normal(way), 0.0f, half, ink);
     put_sides(strip + 2, beyond(end, way, reach), normal(way), reach, half, ink);
-    gm_batch_end(batch, 0);
+    end_strip(batch, 0);
 }
 
 /* Draws a closed line with mitred joints only. */
 static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct rgba ink)
 {
     const float reach = half + fringe;
-    struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
+    struct gm_vertex *strip = add_strip(batch, 2 * (line->count + 1));
     if (!strip) {
         return;
     }
@@ -157,7 +271,7 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
         const size_t k = i % line->count;
         put_sides(strip + 2 * i, line->points[k], mitre(joint_at(line, k, reach)), 0.0f, half, ink);
     }
-    gm_batch_end(batch, 0);
+    end_strip(batch, 0);
 }
 
 static void put_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct rgba ink)
@@ -168,7 +282,7 @@ static void put_disc(struct gm_batch *batch, struct gm_point centre, float radiu
         const float x = i % 2 == 0 ? -reach : reach, y = i < 2 ? -reach : reach;
         corners[i] = vertex((struct gm_point){centre.x + x, centre.y + y}, x, y, radius, ink);
     }
-    gm_batch_quad(batch, corners);
+    add_quad(batch, corners);
 }
 
 /* Draws a line of half width `half` with round joints and ends. */
@@ -211,7 +325,7 @@ static void put_box(struct gm_batch *batch, float left, float top, float right, 
         corners[i] =
             vertex((struct gm_point){i % 2 == 0 ? left : right, i < 2 ? top : bottom}, 0.0f, 0.0f, 1.0f, ink);
     }
-    gm_batch_quad(batch, corners);
+    add_quad(batch, corners);
 }
 
 /* Returns true if all turns have one sign and add up to one round, so that x rises and falls once. */
@@ -221,9 +335,9 @@ static bool convex(const struct gm_polyline *line)
     const struct gm_point *p = line->points;
     bool left = false, right = false;
     int reversals = 0;
-    struct gm_point before = minus(p[0], p[n - 1]);
+    struct gm_point before = gm_point_minus(p[0], p[n - 1]);
     for (size_t i = 0; i < n; i++) {
-        const struct gm_point after = minus(p[(i + 1) % n], p[i]);
+        const struct gm_point after = gm_point_minus(p[(i + 1) % n], p[i]);
         const float turn = before.x * after.y - before.y * after.x;
         left |= turn > 0.0f;
         right |= turn < 0.0f;
@@ -240,8 +354,8 @@ static float area_of(const struct gm_polyline *line)
 {
     float area = 0.0f;
     for (size_t i = 0; i < line->count; i++) {
-        const struct gm_point p = minus(line->points[i], line->points[0]);
-        const struct gm_point q = minus(line->points[(i + 1) % line->count], line->points[0]);
+        const struct gm_point p = gm_point_minus(line->points[i], line->points[0]);
+        const struct gm_point q = gm_point_minus(line->points[(i + 1) % line->count], line->points[0]);
         area += 0.5f * (p.x * q.y - p.y * q.x);
     }
     return area;
@@ -266,7 +380,7 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
 {
     const struct joint joint = joint_at(line, i, 0.0f);
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
-    const float scale = distance / fmaxf(0.25f, 1.0f + dot(a, b));
+    const float scale = distance / fmaxf(0.25f, 1.0f + gm_point_dot(a, b));
     return (struct gm_point){line->points[i].x + scale * (a.x + b.x),
                              line->points[i].y + scale * (a.y + b.y)};
 }
@@ -276,7 +390,7 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
                         struct rgba ink)
 {
     const size_t n = line->count;
-    struct gm_vertex *strip = gm_batch_strip(batch, n);
+    struct gm_vertex *strip = add_strip(batch, n);
     if (!strip) {
         return;
     }
@@ -285,7 +399,7 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
         strip[i] =
             vertex(inwards == 0.0f ? line->points[k] : shifted(line, k, inwards), 0.0f, 0.0f, half, ink);
     }
-    gm_batch_end(batch, 0);
+    end_strip(batch, 0);
 }
 
 static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
@@ -293,7 +407,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
 {
     /* The fading rim comes first, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
-    struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
+    struct gm_vertex *ring = add_strip(batch, 2 * (n + 1));
     if (!ring) {
         return;
     }
@@ -302,7 +416,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
         ring[2 * i] = vertex(shifted(line, k, -0.5f * outwards), 0.0f, 0.0f, 0.5f, ink);
         ring[2 * i + 1] = vertex(shifted(line, k, 0.5f * outwards), 1.0f, 0.0f, 0.5f, ink);
     }
-    gm_batch_end(batch, 0);
+    end_strip(batch, 0);
     put_polygon(batch, line, -0.5f * outwards, 0.5f, ink);
 }
 
@@ -316,14 +430,14 @@ static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, str
         bounds.top = fminf(bounds.top, line->points[i].y);
         bounds.bottom = fmaxf(bounds.bottom, line->points[i].y);
     }
-    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_INVERT);
+    set_state(batch, GM_PROGRAM_INK, GM_STENCIL_INVERT);
     put_polygon(batch, line, 0.0f, 1.0f, ink);
-    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_OUTSIDE);
+    set_state(batch, GM_PROGRAM_INK, GM_STENCIL_OUTSIDE);
     rim.closed = true;
     put_line(batch, &rim, 0.0f, ink);
-    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_INSIDE);
+    set_state(batch, GM_PROGRAM_INK, GM_STENCIL_INSIDE);
     put_box(batch, bounds.left - 1.0f, bounds.top - 1.0f, bounds.right + 1.0f, bounds.bottom + 1.0f, ink);
-    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    set_state(batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
 /* Fills the inside of a closed line (even-odd). Convex polygons have fading edges; the others are painted
@@ -354,7 +468,7 @@ static void clip(void *self, int left, int top, int width, int height)
 
 static void box(void *self, float left, float top, float right, float bottom, struct gm_ink ink)
 {
-    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    set_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     put_box(&((struct gm_brush *)self)->batch, left, top, right, bottom, rgba_of(ink, 1.0));
 }
 
@@ -383,26 +497,26 @@ static void line(void *self, const struct gm_polyline *line, const struct gm_str
     const bool has_whole_pixels = half > 0.75f;
     if (ink.colour[3] < 255 && has_whole_pixels && count_breaks(line, half) > 0) {
         brush->batch.once++;
-        gm_batch_state(&brush->batch, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
+        set_state(&brush->batch, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
         draw_line(brush, line, stroke, half, ink);
-        gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_ONCE);
+        set_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_ONCE);
         draw_line(brush, line, stroke, half, ink);
     } else {
-        gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+        set_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
         draw_line(brush, line, stroke, half, ink);
     }
 }
 
 static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
 {
-    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    set_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     put_disc(&((struct gm_brush *)self)->batch, centre, 0.5f * fmaxf(width, 1.0f),
              rgba_of(ink, fminf(width * width, 1.0f)));
 }
 
 static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
 {
-    gm_batch_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    set_state(&((struct gm_brush *)self)->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     fill_polygon(&((struct gm_brush *)self)->batch, line, rgba_of(ink, 1.0));
 }
 
@@ -422,7 +536,7 @@ static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
         };
         memcpy(corners[i].colour, ink.colour, sizeof corners[i].colour);
     }
-    gm_batch_quad(batch, corners);
+    add_quad(batch, corners);
 }
 
 /* Baselines are on whole pixels, letters along them at quarters of a pixel. */
@@ -433,7 +547,7 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
     const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
     double pen = writing->upwards ? y - writing->y : writing->x - x;
     struct gm_letter letter;
-    gm_batch_state(&brush->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
+    set_state(&brush->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
     while (gm_glyphs_next(brush->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
         if (letter.width > 0) {
             put_letter(&brush->batch, writing->upwards, x, y, &letter, rgba_of(writing->ink, 1.0));
@@ -454,9 +568,8 @@ static struct gm_vertex field_vertex(double x, double y, double across, double a
 static void paint_mesh(struct gm_brush *brush, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     uint32_t *indices;
-    gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
-    struct gm_vertex *vertices =
-        gm_batch_mesh(&brush->batch, mark->count, 3 * mark->triangle_count, &indices);
+    set_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
+    struct gm_vertex *vertices = add_mesh(&brush->batch, mark->count, 3 * mark->triangle_count, &indices);
     if (!vertices) {
         return;
     }
@@ -478,13 +591,13 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_axes *axes, const
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_brush *brush = self;
-    gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
+    set_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     const double right = box.x + box.width, bottom = box.y + box.height;
-    gm_batch_quad(&brush->batch, (struct gm_vertex[4]){field_vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
-                                                       field_vertex(right, box.y, 1.0, 0.0, 1.0, map),
-                                                       field_vertex(box.x, bottom, 0.0, 0.0, 1.0, map),
-                                                       field_vertex(right, bottom, 0.0, 0.0, 1.0, map)});
-    gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    add_quad(&brush->batch, (struct gm_vertex[4]){field_vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
+                                                  field_vertex(right, box.y, 1.0, 0.0, 1.0, map),
+                                                  field_vertex(box.x, bottom, 0.0, 0.0, 1.0, map),
+                                                  field_vertex(right, bottom, 0.0, 0.0, 1.0, map)});
+    set_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
 static void paint_image(struct gm_brush *brush, const struct gm_axes *axes, const struct gm_mark *mark)
@@ -492,15 +605,14 @@ static void paint_image(struct gm_brush *brush, const struct gm_axes *axes, cons
     const double left = gm_axes_x(axes, mark->points[0]), right = gm_axes_x(axes, mark->points[2]);
     const double bottom = gm_axes_y(axes, mark->points[1]), top = gm_axes_y(axes, mark->points[3]);
     const double alpha = mark->style.alpha;
-    gm_batch_state(&brush->batch, GM_PROGRAM_IMAGE, GM_STENCIL_NONE);
+    set_state(&brush->batch, GM_PROGRAM_IMAGE, GM_STENCIL_NONE);
     brush->batch.image = mark;
-    gm_batch_quad(&brush->batch,
-                  (struct gm_vertex[4]){field_vertex(left, bottom, 0.0, 0.0, alpha, mark->map),
-                                        field_vertex(right, bottom, 1.0, 0.0, alpha, mark->map),
-                                        field_vertex(left, top, 0.0, 1.0, alpha, mark->map),
-                                        field_vertex(right, top, 1.0, 1.0, alpha, mark->map)});
+    add_quad(&brush->batch, (struct gm_vertex[4]){field_vertex(left, bottom, 0.0, 0.0, alpha, mark->map),
+                                                  field_vertex(right, bottom, 1.0, 0.0, alpha, mark->map),
+                                                  field_vertex(left, top, 0.0, 1.0, alpha, mark->map),
+                                                  field_vertex(right, top, 1.0, 1.0, alpha, mark->map)});
     brush->batch.image = NULL;
-    gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    set_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
 static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)

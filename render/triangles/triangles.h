@@ -71,22 +71,8 @@ struct gm_batch {
     bool short_of_memory;
 };
 
-/* A batch begins zeroed. */
-void gm_batch_free(struct gm_batch *batch);
-
+/* Empties a batch, which begins zeroed, for a frame. */
 void gm_batch_clear(struct gm_batch *batch);
-void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil);
-
-/* Returns room for a strip of at most count vertices, not connected to the strip before; NULL when out of
-   memory. gm_batch_end ends the strip and drops its last `unused` vertices. */
-struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count);
-void gm_batch_end(struct gm_batch *batch, size_t unused);
-/* Adds a strip of four vertices. */
-void gm_batch_quad(struct gm_batch *batch, const struct gm_vertex corners[4]);
-
-/* Returns room for vertices and the triangles among them (indices count from the first of these); NULL when
-   out of memory. */
-struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
 
 /* The pen that makes a batch, with buffers reused for every frame. */
 struct gm_brush {

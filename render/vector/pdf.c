@@ -180,28 +180,24 @@ static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_col
     return surface;
 }
 
+static void put_image(void *self, const struct gm_field_image *image, const struct gm_mark *mark)
+{
+    struct gm_pdf *pdf = self;
+    cairo_surface_t *surface = image_of(image, mark->map, pdf->painter.look.theme);
+    cairo.save(pdf->cairo);
+    cairo.translate(pdf->cairo, image->left, image->top);
+    cairo.scale(pdf->cairo, (double)image->width / image->columns, (double)image->height / image->rows);
+    cairo.set_source_surface(pdf->cairo, surface, 0.0, 0.0);
+    cairo.paint_with_alpha(pdf->cairo, mark->style.alpha);
+    cairo.restore(pdf->cairo);
+    cairo.surface_destroy(surface);
+    pdf->fields++;
+}
+
 static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_pdf *pdf = self;
-    for (int layer = 0; layer < (mark->light ? 2 : 1); layer++) {
-        struct gm_field_image image = {.shade = layer > 0};
-        if (!gm_field_image_paint(&image, axes, mark, pdf->clip)) {
-            pdf->short_of_memory = true;
-            return;
-        }
-        if (image.width > 0) {
-            cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
-            cairo.save(pdf->cairo);
-            cairo.translate(pdf->cairo, image.left, image.top);
-            cairo.scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
-            cairo.set_source_surface(pdf->cairo, surface, 0.0, 0.0);
-            cairo.paint_with_alpha(pdf->cairo, mark->style.alpha);
-            cairo.restore(pdf->cairo);
-            cairo.surface_destroy(surface);
-            pdf->fields++;
-        }
-        gm_field_image_close(&image);
-    }
+    pdf->short_of_memory |= !gm_field_image_draw(axes, mark, pdf->clip, put_image, pdf);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)

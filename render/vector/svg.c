@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "render/cells/text.h"
+#include "render/files/regular_file.h"
+#include "render/message.h"
 
 enum shape { NO_SHAPE, LINES, DISCS, FILLS, BOXES };
 
@@ -83,29 +85,25 @@ static void put_ink(FILE *out, const char *name, struct gm_ink ink)
     }
 }
 
+static const char *const escapes[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}};
+enum { ESCAPES = sizeof escapes / sizeof *escapes };
+
 /* XML cannot contain most control characters: characters that are not shown become U+FFFD. */
 static void put_text(FILE *out, const char *text)
 {
-    static const char unknown[] = "\xef\xbf\xbd";
     while (*text) {
         const char *start = text;
         const uint32_t code = gm_text_next(&text);
-        switch (code) {
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        default:
-            if (gm_text_is_shown(code) || code == '\n') {
-                fprintf(out, "%.*s", (int)(text - start), start);
-            } else {
-                fputs(unknown, out);
-            }
+        size_t i = 0;
+        while (i < ESCAPES && code != (uint32_t)escapes[i][1][0]) {
+            i++;
+        }
+        if (i < ESCAPES) {
+            fputs(escapes[i][0], out);
+        } else if (gm_text_is_shown(code) || code == '\n') {
+            fprintf(out, "%.*s", (int)(text - start), start);
+        } else {
+            fputs("\xef\xbf\xbd", out);
         }
     }
 }
@@ -264,25 +262,11 @@ static void box(void *self, float left, float top, float right, float bottom, st
 
 /* ---- fields ---- */
 
-static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t size)
+static void put_image(void *self, const struct gm_field_image *image, const struct gm_mark *mark)
 {
-    const size_t length = gm_base64_size(size);
-    char *text = malloc(length + 1);
-    if (!text) {
-        svg->short_of_memory = true;
-        return;
-    }
-    gm_base64(bytes, size, text);
-    text[length] = '\0';
-    fputs(text, svg->out);
-    free(text);
-}
-
-static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_colour_map map,
-                      double alpha)
-{
+    struct gm_svg *svg = self;
     uint8_t palette[GM_PALETTE][4];
-    gm_field_image_palette(image, map, svg->painter.look.theme, palette);
+    gm_field_image_palette(image, mark->map, svg->painter.look.theme, palette);
     size_t size = 0;
     char reason[GM_PNG_REASON];
     const struct gm_png file = {.width = image->columns,
@@ -296,31 +280,21 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
     }
     fprintf(svg->out, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" preserveAspectRatio=\"none\"",
             image->left, image->top, image->width, image->height);
-    if (alpha < 1.0) {
-        fprintf(svg->out, " opacity=\"%s\"", number(alpha).text);
+    if (mark->style.alpha < 1.0) {
+        fprintf(svg->out, " opacity=\"%s\"", number(mark->style.alpha).text);
     }
     fputs(" xlink:href=\"data:image/png;base64,", svg->out);
-    put_base64(svg, png, size);
+    gm_base64_put(png, size, svg->out);
     fputs("\"/>\n", svg->out);
     free(png);
+    svg->fields++;
 }
 
 static void field(void *self, const struct gm_axes *axes, const struct gm_mark *mark)
 {
     struct gm_svg *svg = self;
     end_shapes(svg);
-    for (int layer = 0; layer < (mark->light ? 2 : 1); layer++) {
-        struct gm_field_image image = {.shade = layer > 0};
-        if (!gm_field_image_paint(&image, axes, mark, svg->clip)) {
-            svg->short_of_memory = true;
-            return;
-        }
-        if (image.width > 0) {
-            put_image(svg, &image, mark->map, mark->style.alpha);
-            svg->fields++;
-        }
-        gm_field_image_close(&image);
-    }
+    svg->short_of_memory |= !gm_field_image_draw(axes, mark, svg->clip, put_image, svg);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
@@ -439,4 +413,62 @@ bool gm_svg_write(const char *path, struct gm_drawing *drawing, char *message)
     struct gm_svg svg = {.clip = {0, 0, drawing->look->width, drawing->look->height}};
     const struct gm_drawer drawer = {&pen, draw, &svg, &svg.painter};
     return gm_drawing_write(path, drawing, &drawer, message);
+}
+
+/* ---- reading the texts of the metadata ---- */
+
+enum { MOST_BYTES = 1 << 28 };
+
+/* Undoes the escapes of a text, in place. */
+static void unescape(char *text)
+{
+    char *to = text;
+    while (*text) {
+        size_t taken = 1;
+        *to = *text;
+        for (size_t i = 0; i < ESCAPES; i++) {
+            if (strncmp(text, escapes[i][0], strlen(escapes[i][0])) == 0) {
+                *to = escapes[i][1][0];
+                taken = strlen(escapes[i][0]);
+            }
+        }
+        text += taken;
+        to++;
+    }
+    *to = '\0';
+}
+
+/* Returns the text of a key between two places, which the caller frees; NULL without it. */
+static char *text_of(const char *from, const char *to, const char *key)
+{
+    char front[128];
+    snprintf(front, sizeof front, "<geomint:text key=\"%s\">", key);
+    const char *start = strstr(from, front);
+    const char *end = start && start < to ? strstr(start, "</geomint:text>") : NULL;
+    if (!end || end > to) {
+        return NULL;
+    }
+    start += strlen(front);
+    char *text = strndup(start, (size_t)(end - start));
+    if (text) {
+        unescape(text);
+    }
+    return text;
+}
+
+bool gm_svg_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
+{
+    char reason[GM_REGULAR_REASON];
+    size_t size = 0;
+    char *bytes = gm_regular_read(path, MOST_BYTES, &size, reason);
+    if (!bytes) {
+        snprintf(message, GM_MESSAGE, "%.300s could not be read: %s", path, reason);
+        return false;
+    }
+    const char *from = strstr(bytes, "<metadata"), *to = from ? strstr(from, "</metadata>") : NULL;
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = to ? text_of(from, to, keys[i]) : NULL;
+    }
+    free(bytes);
+    return true;
 }

@@ -56,16 +56,16 @@ enum { GM_FIELD_COLOURS = 255, GM_FIELD_NONE = GM_FIELD_COLOURS };
 struct gm_field_image {
     int left, top, width, height; /* place on the surface, in its pixels */
     int columns, rows;            /* size of the field, a multiple of width and height */
-    uint8_t *pixels;              /* numbers of colours, top row first, malloc'ed */
-    bool shade;                   /* set before: it is the shade over a field with light, in black */
+    uint8_t *pixels;              /* numbers of colours, top row first */
+    bool shade;                   /* it is the shade over a field with light, in black */
 };
 
-/* Paints the part of a mesh or an image in a rectangle {left, top, width, height} of the surface. A pixel of
-   the surface has two pixels on a side, since drawings are seen from near, or one in a large field. Without
-   such a part the field is empty (width 0). Returns false when out of memory. */
-bool gm_field_image_paint(struct gm_field_image *field, const struct gm_axes *axes,
-                          const struct gm_mark *mark, const int clip[4]);
-void gm_field_image_close(struct gm_field_image *field);
+/* Paints the part of a mesh or an image in a rectangle {left, top, width, height} of the surface, and calls `put` with
+   its colours and, if it has a light, with the shade over them; with nothing if there is no such part. Returns false
+   when out of memory. */
+typedef void gm_field_put(void *self, const struct gm_field_image *image, const struct gm_mark *mark);
+bool gm_field_image_draw(const struct gm_axes *axes, const struct gm_mark *mark, const int clip[4],
+                         gm_field_put *put, void *self);
 
 /* Sets the colours of the image's numbers: red, green, blue and opacity. */
 void gm_field_image_palette(const struct gm_field_image *field, enum gm_colour_map map, enum gm_theme theme,

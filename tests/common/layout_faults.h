@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_COMMON_LAYOUT_FAULTS_H
 #define GM_TESTS_COMMON_LAYOUT_FAULTS_H
 
-#include "render/layout/layout.h"
+#include "render/layout/panel.h"
 
 /* What may be asked of every layout, on surfaces of any size. */
 

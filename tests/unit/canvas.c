@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/layout/layout.h"
+#include "render/layout/panel.h"
 #include "render/pixels/canvas.h"
 
 enum { WIDTH = 640, HEIGHT = 600 };

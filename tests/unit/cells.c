@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 
 static struct gm_cells cells_of(int columns, int rows)
 {

@@ -10,7 +10,6 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/layout/layout.h"
 #include "render/layout/panel.h"
 #include "tests/common/layout_faults.h"
 

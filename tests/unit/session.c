@@ -580,7 +580,10 @@ static void long_texts_stay_whole(void **unused)
     gm_studies_begin(&studies, GM_STUDY_STABILITY, shot, wake);
     assert_non_null(studies.studies[GM_STUDY_STABILITY]);
     struct gm_arguments arguments = {0};
-    assert_true(gm_arguments_split(&arguments, studies.studies[GM_STUDY_STABILITY]->words));
+    char *said = gm_studies_words(shot);
+    assert_non_null(said);
+    assert_true(gm_arguments_split(&arguments, said));
+    free(said);
     bool whole = false;
     for (int i = 0; i < arguments.count; i++) {
         whole = whole || strcmp(arguments.words[i], words) == 0;

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "render/layout/layout.h"
+#include "render/layout/panel.h"
 
 #define PI 3.14159265358979323846
 

@@ -10,8 +10,7 @@
 #include "app/base/pool.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
-#include "app/grid/certified_lane.h"
-#include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
@@ -22,6 +21,7 @@
 #include "core/expression/number.h"
 #include "core/memory.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "render/files/temporary.h"
 #include "render/picture/picture.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
-#include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/words/scheme.h"

@@ -6,11 +6,6 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
-#include "app/base/arguments.h"
-#include "app/tours/tour.h"
-#include "core/scheme.h"
-#include "render/layout/appearance.h"
-
 /* A thread that does a piece of work on request and sleeps in between. The data belong to the thread while
    it is busy, else to the caller, unless they share a lock. */
 
@@ -58,56 +53,5 @@ bool gm_measure_read(struct gm_measure *measure);
 /* Returns the lines of the requested command, owned by measure; NULL while incomplete. */
 const char *gm_measure_text(const struct gm_measure *measure);
 void gm_measure_close(struct gm_measure *measure);
-
-/* A diagram measured in the background, by a thread of low priority. Only the thread touches its table;
-   the screen receives looks. */
-
-struct gm_study_look {
-    struct gm_picture *picture;
-    char what[64]; /* the run being measured */
-    size_t done, all;
-    bool finished;            /* measuring is complete or was stopped */
-    bool impossible;          /* nothing can be measured, for the reason in message */
-    char message[GM_MESSAGE]; /* the last message; its number counts messages */
-    unsigned long message_number;
-};
-
-struct gm_study {
-    enum gm_study_kind kind;
-    char *words; /* the command's, the scene first */
-    int wake;
-    struct gm_job job;
-
-    /* owned by the screen */
-    const struct gm_scene *scene; /* the scene that is open at its start; it may be freed */
-    struct gm_study_look *look;   /* the last look taken; NULL before the first */
-    int64_t until;                /* time (ms) at which the notice of its end disappears */
-
-    /* shared, under the job's lock */
-    bool stop; /* measuring stops; finished results remain */
-    bool save; /* the results go to PNG and CSV in the working directory; the next look names them */
-    bool leave;
-    enum gm_theme theme; /* of a saved picture */
-    bool ready;          /* looks[filled] is finished and not yet taken */
-    int filled;          /* index of the look that the thread fills; the screen has the other one */
-    struct gm_study_look looks[2];
-
-    /* owned by the thread */
-    struct gm_arguments arguments; /* the words, split */
-    struct gm_grid grid;
-    struct gm_study_look now; /* the current look without its picture */
-    double looked;            /* time of the last look, in seconds */
-    unsigned long told;       /* number of that look's message */
-};
-
-/* Starts to measure; gm_study_close frees the study. `wake` is an eventfd, written when there is a new look.
-   Returns NULL on failure and fills message (GM_MESSAGE bytes). */
-struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int wake, char *message);
-/* Abandons unfinished runs and frees the study; ignores NULL. */
-void gm_study_close(struct gm_study *study);
-
-/* Takes a look that is new since the last call; returns false without one. The caller may read it and lay out
-   its picture until the next call. */
-bool gm_study_take(struct gm_study *study);
 
 #endif

@@ -7,7 +7,7 @@
 #include "app/explorer/worker/session.h"
 #include "app/runs/session.h"
 #include "core/scheme.h"
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 #include "render/files/images.h"
 
 /* The user's settings of the screen. */

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "app/base/interrupt.h"
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 #include "render/files/images.h"
 #include "render/layout/appearance.h"
 
@@ -301,10 +301,8 @@ bool gm_display_read(struct gm_display *display);
 /* Waits until no picture is in use. Call it before closing the picture's owner. */
 void gm_display_finish(struct gm_display *display);
 
-/* Returns the state's panel at a cell of the shown picture, and sets the point in its units; NULL without
-   a panel. */
-const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
-                                         int row, double *x, double *y);
+/* Returns the spot in the middle of a cell of the shown picture. */
+struct gm_spot gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column, int row);
 
 /* Prepares the terminal for the shell: removes the picture, sends pending bytes, and awaits answers that
    the shell would read as keys. */

@@ -26,10 +26,9 @@ struct gm_pixels {
     struct gm_writer_image made;
 
     /* owned by the thread */
-    struct gm_pixels_job made_for; /* the settings of the canvas, image and rgb */
+    struct gm_pixels_job made_for; /* the settings of the canvas and the image */
     struct gm_canvas *canvas;
     struct gm_inline *image;
-    unsigned char *rgb;
 };
 
 static void forget(void *self)
@@ -37,10 +36,8 @@ static void forget(void *self)
     struct gm_pixels *pixels = self;
     gm_canvas_close(pixels->canvas);
     gm_inline_close(pixels->image);
-    free(pixels->rgb);
     pixels->canvas = NULL;
     pixels->image = NULL;
-    pixels->rgb = NULL;
 }
 
 static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
@@ -65,17 +62,17 @@ static bool prepare(struct gm_pixels *pixels)
         return false;
     }
     pixels->image = gm_inline_open(job->kind, &job->place, job->most_width, job->most_height);
-    pixels->rgb = malloc((size_t)look.width * (size_t)look.height * 3);
-    return pixels->image && pixels->rgb;
+    return pixels->image;
 }
 
 static void paint(void *self)
 {
     struct gm_pixels *pixels = self;
     pixels->made = (struct gm_writer_image){0};
-    if (!prepare(pixels) || !gm_canvas_paint(pixels->canvas, pixels->picture, pixels->rgb) ||
-        !gm_inline_encode(pixels->image, pixels->rgb, pixels->job.whole, &pixels->made.bytes,
-                          &pixels->made.size)) {
+    const unsigned char *rgb =
+        prepare(pixels) ? gm_canvas_paint(pixels->canvas, pixels->picture, NULL) : NULL;
+    if (!rgb ||
+        !gm_inline_encode(pixels->image, rgb, pixels->job.whole, &pixels->made.bytes, &pixels->made.size)) {
         pixels->made.bytes = NULL;
         forget(pixels);
     } else if (!pixels->made.bytes) {
@@ -209,17 +206,16 @@ bool gm_display_show(struct gm_display *display, const struct gm_screen *screen,
     return true;
 }
 
-const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
-                                         int row, double *x, double *y)
+struct gm_spot gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column, int row)
 {
     const struct gm_inline_place *place = &display->job.place;
     gm_display_finish(display);
     if (!display->painter || !display->painter->canvas) {
-        return NULL;
+        return (struct gm_spot){NULL, 0, 0};
     }
     return gm_canvas_locate(display->painter->canvas, picture,
                             (column - place->column + 0.5) * place->cell_width,
-                            (row - place->row + 0.5) * place->cell_height, x, y);
+                            (row - place->row + 0.5) * place->cell_height);
 }
 
 /* Sends queued bytes and awaits the answers, for at most PATIENCE milliseconds. */

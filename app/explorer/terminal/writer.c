@@ -430,13 +430,16 @@ int gm_writer_patience(const struct gm_writer *writer)
 
 void gm_writer_copy(struct gm_writer *writer, const char *text)
 {
-    size_t size = gm_base64_size(strlen(text));
-    char *coded = malloc(size);
-    if (coded) {
-        gm_base64((const unsigned char *)text, strlen(text), coded);
-        gm_writer_tell(writer, "\033]52;c;");
-        put(writer, coded, size);
-        gm_writer_tell(writer, "\a");
+    char *coded = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&coded, &size);
+    if (stream) {
+        fputs("\033]52;c;", stream);
+        gm_base64_put(text, strlen(text), stream);
+        fputs("\a", stream);
+        if (fclose(stream) == 0) {
+            put(writer, coded, size);
+        }
     }
     free(coded);
 }

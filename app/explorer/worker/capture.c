@@ -38,7 +38,6 @@ struct gm_recorder {
     /* owned by the caller, or by the thread while it paints */
     struct gm_picture *picture;
     long repeat; /* number of frames that show the picture */
-    unsigned char *rgb;
 
     /* owned by the thread */
     struct gm_canvas *canvas; /* NULL before the first picture */
@@ -54,9 +53,9 @@ static void record(void *self)
     if (!recorder->canvas && !recorder->failed) {
         recorder->canvas = gm_canvas_open(&look, recorder->message);
     }
-    recorder->failed = recorder->failed || !recorder->canvas ||
-                       !gm_canvas_paint(recorder->canvas, recorder->picture, recorder->rgb) ||
-                       !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
+    const unsigned char *rgb =
+        recorder->canvas ? gm_canvas_paint(recorder->canvas, recorder->picture, NULL) : NULL;
+    recorder->failed = recorder->failed || !rgb || !gm_sink_hold(recorder->sink, rgb, recorder->repeat);
 }
 
 static void end(void *self)
@@ -68,7 +67,6 @@ static void end(void *self)
 static void release(struct gm_recorder *recorder)
 {
     gm_picture_close(recorder->picture);
-    free(recorder->rgb);
     free(recorder);
 }
 
@@ -82,12 +80,9 @@ static struct gm_recorder *open_recorder(const char *path, enum gm_theme theme, 
         gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
-    *recorder = (struct gm_recorder){.theme = theme,
-                                     .begun = NAN,
-                                     .picture = gm_picture_open(),
-                                     .rgb = malloc((size_t)WIDTH * HEIGHT * 3)};
+    *recorder = (struct gm_recorder){.theme = theme, .begun = NAN, .picture = gm_picture_open()};
     snprintf(recorder->path, sizeof recorder->path, "%s", path);
-    if (!recorder->picture || !recorder->rgb) {
+    if (!recorder->picture) {
         gm_refuse(message, "There is not enough memory.");
     } else {
         recorder->sink = gm_sink_open_movie(recorder->path, &settings, message);
@@ -112,7 +107,7 @@ double gm_recorder_length(const struct gm_recorder *recorder)
 /* 300 dots per inch on 32 cm, 600 on the 16 cm of a text column */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
 
-void gm_capture_save(struct gm_play *play, enum gm_theme theme)
+bool gm_capture_save(struct gm_play *play, enum gm_theme theme, char *sentence)
 {
     struct gm_session *session = &play->session;
     char path[128], message[GM_MESSAGE] = "";
@@ -123,26 +118,23 @@ void gm_capture_save(struct gm_play *play, enum gm_theme theme)
     struct gm_print print = {.path = path,
                              .look = {.width = PRINT_WIDTH, .height = PRINT_HEIGHT, .theme = theme}};
     bool ok = gm_still_write(&print, &session->log, (const struct gm_lane *const *)session->lanes, message);
-    gm_play_say(play, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
+    return gm_refuse(sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
 }
 
-void gm_capture_save_system(struct gm_play *play)
+bool gm_capture_save_system(const struct gm_play *play, char *sentence)
 {
     const struct gm_session *session = &play->session;
     char path[128];
     if (!session->scene->text) {
-        return;
+        return true;
     }
     char *text = gm_system_now(session->scene, gm_session_owner(session, play->selected, false));
     gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
     const int error = text ? gm_temporary_write(path, text, strlen(text)) : ENOMEM;
     free(text);
-    if (error == 0) {
-        gm_play_say(play, "Saved %.400s: geomint ./%.60s runs it.", path, path);
-    } else {
-        gm_play_say(play, "Not saved: %.400s: %.60s", path,
-                    error == ENOMEM ? "not enough memory" : strerror(error));
-    }
+    return error == 0 ? gm_refuse(sentence, "Saved %.400s: geomint ./%.60s runs it.", path, path)
+                      : gm_refuse(sentence, "Not saved: %.400s: %.60s", path,
+                                  error == ENOMEM ? "not enough memory" : strerror(error));
 }
 
 /* ---- the movie ---- */
@@ -166,21 +158,18 @@ bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)
     return true;
 }
 
-void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme)
+bool gm_capture_record(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme,
+                       char *sentence)
 {
     char path[128], message[GM_MESSAGE] = "";
-    if (gm_capture_stop_recording(capture, message)) {
-        gm_play_say(play, "%s", message);
-        return;
+    if (gm_capture_stop_recording(capture, sentence)) {
+        return false;
     }
-    gm_folder_free_file(play->session.scene->name, ".mp4", path, sizeof path);
+    gm_folder_free_file(session->scene->name, ".mp4", path, sizeof path);
     capture->recorder = open_recorder(path, theme, message);
     capture->unrecorded = true;
-    if (capture->recorder) {
-        gm_play_say(play, "Recording %.100s; R ends it.", path);
-    } else {
-        gm_play_say(play, "No movie: %.400s", message);
-    }
+    return capture->recorder ? gm_refuse(sentence, "Recording %.100s; R ends it.", path)
+                             : gm_refuse(sentence, "No movie: %.400s", message);
 }
 
 void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *session)

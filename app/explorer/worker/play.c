@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Model time against wall time: how far to step, ahead or back, and which lanes are frozen. */
+/* Model time against wall time: how far to step, ahead or back, which lanes are frozen; and the orders
+   of the user, in the thread that steps. */
 #include "app/explorer/worker/session.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "app/native/engine.h"
+#include "core/basics.h"
 #include "render/clock.h"
 
 /* lag in seconds above which the clock waits for the simulation */
@@ -30,7 +33,8 @@ double gm_play_speed(const struct gm_play *play)
     return mantissa[play->speed - 3 * decade] * pow(10, decade);
 }
 
-void gm_play_set_speed(struct gm_play *play, int number)
+/* Sets the speed by number (three per decade, 0 is 1 per second), limited to the range. */
+static void set_speed(struct gm_play *play, int number)
 {
     play->speed = number < SLOWEST ? SLOWEST : number > FASTEST ? FASTEST : number;
 }
@@ -38,10 +42,11 @@ void gm_play_set_speed(struct gm_play *play, int number)
 /* Sets the speed at which `span` of model time takes `seconds`. */
 static void set_speed_for(struct gm_play *play, double span, double seconds)
 {
-    gm_play_set_speed(play, (int)round(3 * log10(span / seconds)));
+    set_speed(play, (int)round(3 * log10(span / seconds)));
 }
 
-void gm_play_say(struct gm_play *play, const char *format, ...)
+/* Sets the message of the status line. */
+__attribute__((format(printf, 2, 3))) static void say(struct gm_play *play, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -51,7 +56,8 @@ void gm_play_say(struct gm_play *play, const char *format, ...)
     play->changed = true;
 }
 
-void gm_play_set_clock(struct gm_play *play, double t)
+/* Resumes model time from t. */
+static void set_clock(struct gm_play *play, double t)
 {
     play->clock_t = t;
     play->clock_wall = gm_clock_seconds();
@@ -69,7 +75,9 @@ static double later(const struct gm_play *play, double a, double b)
     return sooner(play, a, b) == a ? b : a;
 }
 
-double gm_play_due(const struct gm_play *play)
+/* Returns the model time that is due. A lane behind the others, such as a new one, is stepped even while
+   paused. */
+static double due_time(const struct gm_play *play)
 {
     const struct gm_session *session = &play->session;
     double together = gm_session_time(session);
@@ -105,18 +113,19 @@ bool gm_play_keep_agenda(struct gm_play *play)
     }
     const bool stop = gm_agenda_keep(&play->agenda, &play->session, message);
     if (message[0]) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     }
     if (stop) {
         play->paused = true;
         play->ahead = false;
         play->changed = true;
-        gm_play_set_clock(play, gm_session_time(&play->session));
+        set_clock(play, gm_session_time(&play->session));
     }
     return gm_agenda_limit(&play->agenda) > limit;
 }
 
-void gm_play_run_ahead(struct gm_play *play, double to)
+/* Runs ahead to the time `to` without pausing. */
+static void start_ahead(struct gm_play *play, double to)
 {
     play->ahead = true;
     play->ahead_from = gm_session_time(&play->session);
@@ -143,7 +152,7 @@ static bool step_ahead(struct gm_play *play)
     if (!on) {
         play->ahead = false;
         play->changed = true;
-        gm_play_set_clock(play, gm_session_time(&play->session));
+        set_clock(play, gm_session_time(&play->session));
     }
     if (begun - play->ahead_told > AHEAD_NEWS) {
         play->ahead_told = begun;
@@ -158,8 +167,7 @@ static bool step_along(struct gm_play *play)
     const struct gm_lane *first = play->session.lanes[0];
     /* at most one second's worth of steps, so that orders are heard */
     const double a_second = from + gm_session_direction(&play->session) * play->rate;
-    const double due =
-        sooner(play, gm_play_due(play), later(play, a_second, gm_session_next(&play->session)));
+    const double due = sooner(play, due_time(play), later(play, a_second, gm_session_next(&play->session)));
     bool worked = false;
     while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
         worked = true;
@@ -171,15 +179,14 @@ static bool step_along(struct gm_play *play)
     } else if (play->homewards && gm_play_left_until(play, first->t0) < 1e-6 * fabs(first->run->dt)) {
         play->homewards = false;
         play->paused = true; /* so that the returned states can be seen */
-        gm_play_say(play,
-                    "Back at the start: “from start” shows how near each scheme comes to where it began.");
+        say(play, "Back at the start: “from start” shows how near each scheme comes to where it began.");
     }
     double next = gm_session_next(&play->session);
     if (!play->paused && isfinite(next)) {
-        double lag = (gm_play_due(play) - next) * gm_session_direction(&play->session) / gm_play_speed(play);
+        double lag = (due_time(play) - next) * gm_session_direction(&play->session) / gm_play_speed(play);
         if (lag > LATE) {
             /* the clock resumes at the slowest lane's time: model time is never skipped */
-            gm_play_set_clock(play, later(play, gm_session_time(&play->session), next));
+            set_clock(play, later(play, gm_session_time(&play->session), next));
             play->behind = true;
         } else if (lag < 0.5 * LATE && !worked) {
             play->behind = false;
@@ -206,7 +213,7 @@ double gm_play_pause(const struct gm_play *play)
     const double next = gm_session_next(&play->session);
     double pause = INFINITY;
     if (!play->paused && isfinite(next)) {
-        pause = fmax(fabs(next - gm_play_due(play)) / gm_play_speed(play), SLICE);
+        pause = fmax(fabs(next - due_time(play)) / gm_play_speed(play), SLICE);
     }
     return play->restart ? fmin(pause, RESTART_PAUSE) : pause;
 }
@@ -218,11 +225,13 @@ static void go_to_step(struct gm_play *play)
 {
     const double begin = gm_tour_begin(play->agenda.tour, play->agenda.step);
     if (begin > gm_session_time(&play->session)) {
-        gm_play_run_ahead(play, begin);
+        start_ahead(play, begin);
     }
 }
 
-void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t step, bool waits)
+/* Plays a step of a tour. The session must be at the start of step gm_tour_first(tour, step). If `waits`,
+   it pauses there. */
+static void play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t step, bool waits)
 {
     const double span = tour->steps[step].until - gm_tour_begin(tour, step);
     play->agenda = gm_agenda_of(tour, step, gm_tour_first(tour, step));
@@ -233,7 +242,8 @@ void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t 
     go_to_step(play);
 }
 
-void gm_play_restart(struct gm_play *play)
+/* Restarts all lanes at once. */
+static void restart(struct gm_play *play)
 {
     char message[GM_MESSAGE];
     play->restart = false;
@@ -241,9 +251,9 @@ void gm_play_restart(struct gm_play *play)
     play->frozen = 0;
     play->ahead = play->homewards = false;
     if (!gm_session_restart(&play->session, message)) {
-        gm_play_say(play, "%s", message);
+        say(play, "%s", message);
     }
-    gm_play_set_clock(play, gm_session_time(&play->session));
+    set_clock(play, gm_session_time(&play->session));
     if (play->agenda.tour) { /* its step is shown again */
         play->paused = play->paused && !play->agenda.over;
         gm_agenda_rewind(&play->agenda, -INFINITY);
@@ -255,7 +265,7 @@ void gm_play_restart(struct gm_play *play)
 void gm_play_restart_if_due(struct gm_play *play)
 {
     if (play->restart && gm_clock_seconds() - play->restarted >= RESTART_PAUSE) {
-        gm_play_restart(play);
+        restart(play);
     }
 }
 
@@ -269,7 +279,7 @@ void gm_play_begin(struct gm_play *play)
     if (span > 0 && isfinite(span)) {
         set_speed_for(play, span, FIRST_SECONDS);
     }
-    gm_play_set_clock(play, gm_session_time(&play->session));
+    set_clock(play, gm_session_time(&play->session));
 }
 
 /* ---- frozen lanes ---- */
@@ -299,9 +309,327 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
             [GM_EVENTS_ACCUMULATE] = "has events without end",
         };
-        gm_play_say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
-                    sentences[latest->run->status], latest->run->t,
-                    frozen < play->session.count ? "; the others continue" : "");
+        say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
+            sentences[latest->run->status], latest->run->t,
+            frozen < play->session.count ? "; the others continue" : "");
     }
     play->frozen = frozen;
+}
+
+/* ---- orders: what failed is in the next shot ---- */
+
+static bool is_of_scheme(const struct gm_parameter *row)
+{
+    return row >= gm_settings_parameters && row < gm_settings_parameters + gm_settings_parameter_count;
+}
+
+/* ---- undoing ---- */
+
+/* the lane of a change that every lane has */
+static const double all_lanes = -1;
+
+/* Stores the order that undoes a change; the oldest one gives way. A dragged slider makes one change. */
+static void note_undo(struct gm_play *play, struct gm_order order)
+{
+    const struct gm_order *last = play->undo_count > 0 ? &play->undos[play->undo_count - 1] : NULL;
+    if (last && order.amount && last->amount && last->row == order.row && last->value == order.value) {
+        return;
+    }
+    if (play->undo_count == GM_UNDOS) {
+        memmove(play->undos, play->undos + 1, --play->undo_count * sizeof *play->undos);
+    }
+    play->undos[play->undo_count++] = order;
+}
+
+static bool undo(struct gm_play *play, char *message)
+{
+    if (play->undo_count == 0) {
+        return gm_refuse(message, "There is nothing to undo.");
+    }
+    const struct gm_order *order = &play->undos[--play->undo_count];
+    const size_t lane = order->value == all_lanes ? play->selected : (size_t)order->value;
+    const bool scheme = order->kind == GM_ORDER_SWITCH;
+    if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
+               : !gm_session_set(&play->session, lane, order->row, is_of_scheme(order->row), order->text,
+                                 &play->restart, message)) {
+        return false;
+    }
+    say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
+        scheme ? order->scheme->title : order->text);
+    return true;
+}
+
+/* Forgets the changes that a removed lane had alone. */
+static void forget_undos(struct gm_play *play, size_t lane)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < play->undo_count; i++) {
+        if (play->undos[i].value != (double)lane) {
+            play->undos[count] = play->undos[i];
+            play->undos[count++].value -= play->undos[i].value > (double)lane;
+        }
+    }
+    play->undo_count = count;
+}
+
+static void move_parameter(struct gm_play *play, const struct gm_order *order)
+{
+    char text[GM_TYPED], message[GM_MESSAGE];
+    const struct gm_parameter *row = order->row;
+    const void *owner = gm_session_owner(&play->session, play->selected, is_of_scheme(row));
+    if (order->kind == GM_ORDER_STANDARD) {
+        snprintf(text, sizeof text, "%s", row->standard);
+    } else if (order->kind == GM_ORDER_TYPE) {
+        snprintf(text, sizeof text, "%s", order->text);
+    } else if (order->kind == GM_ORDER_SLIDE) {
+        if (!gm_slider_at(row, order->value, text)) {
+            return;
+        }
+    } else if (!gm_slider_next(row, owner, order->amount, order->kind == GM_ORDER_NUDGE, text)) {
+        say(play,
+            row->type == GM_TEXT ? "%s is a word of your own: enter types it."
+                                 : "%s is at the end of its range.",
+            row->key);
+        return;
+    }
+    if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
+        play->undos[play->undo_count - 1].amount = 0; /* an earlier drag has ended */
+    }
+    const bool alone = gm_session_differs(&play->session, row, is_of_scheme(row));
+    struct gm_order back = {.kind = GM_ORDER_TYPE,
+                            .amount = order->kind == GM_ORDER_SLIDE,
+                            .value = alone ? (double)play->selected : all_lanes,
+                            .row = row};
+    gm_parameter_format(row, owner, back.text, sizeof back.text);
+    if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
+                        message)) {
+        say(play, "%s", message);
+    } else if (strcmp(back.text, text) != 0) {
+        note_undo(play, back);
+    }
+}
+
+/* Switches the selected lane, unless it has the scheme. */
+static bool switch_scheme(struct gm_play *play, const struct gm_scheme *scheme, char *message)
+{
+    const struct gm_scheme *before = play->session.lanes[play->selected]->scheme;
+    if (!gm_session_switch(&play->session, play->selected, scheme, message)) {
+        return false;
+    }
+    if (before != scheme) {
+        note_undo(play, (struct gm_order){
+                            .kind = GM_ORDER_SWITCH, .value = (double)play->selected, .scheme = before});
+    }
+    return true;
+}
+
+/* Moves the camera: the azimuth wraps around, elevation and zoom stop at their limits. */
+static bool look(struct gm_play *play, const struct gm_order *order, char *message)
+{
+    struct gm_session *session = &play->session;
+    const void *owner = gm_session_owner(session, play->selected, false);
+    static const char *const keys[] = {"azimuth", "elevation", "zoom"};
+    for (size_t k = 0; k < GM_COUNT(keys); k++) {
+        const struct gm_parameter *row = gm_scene_parameter(session->scene, keys[k]);
+        if (!row || gm_scene_idle(session->scene, owner, keys[k])) {
+            return true; /* this picture is not in space */
+        }
+        const double value = gm_parameter_get(row, owner);
+        double moved = k == 0 ? value + order->x : k == 1 ? value + order->y : value * order->value;
+        moved -= k == 0 ? 360 * floor((moved + 180) / 360) : 0;
+        moved = fmin(fmax(moved, row->lowest), row->highest);
+        char text[GM_TYPED];
+        snprintf(text, sizeof text, "%.4g", moved);
+        if (moved != value &&
+            !gm_session_set(session, play->selected, row, false, text, &play->restart, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool run_ahead(struct gm_play *play, const char *text, char *message)
+{
+    double to;
+    if (!gm_number_parse(text, &to) || !isfinite(to)) {
+        return gm_refuse(message, "\"%s\" is not a time.", text);
+    }
+    if (gm_play_left_until(play, to) <= 0) {
+        return gm_refuse(message, "t = %g has already passed.", to);
+    }
+    start_ahead(play, to);
+    return true;
+}
+
+/* Returns the snapshot time of an order: one up or down is a twentieth of the past, or at least one
+   snapshot. */
+static double moment_of(const struct gm_session *session, const struct gm_order *order)
+{
+    double gone = gm_session_gone(session), part = gm_session_reach(session) / 20;
+    return order->amount == 0  ? order->value
+           : order->amount < 0 ? gone - part
+                               : fmax(gone + part, gm_session_after(session, gone));
+}
+
+static bool turn(struct gm_play *play, char *message)
+{
+    struct gm_session *session = &play->session;
+    if (!gm_session_turn(session, message)) {
+        return false;
+    }
+    const struct gm_lane *lane = session->lanes[0];
+    play->homewards = gm_play_left_until(play, lane->t0) > 0.5 * fabs(lane->run->dt);
+    say(play, play->homewards ? "Time runs back to the start." : "Time runs the other way.");
+    return true;
+}
+
+/* Restarts all lanes from a point of the picture. */
+static bool start_from(struct gm_play *play, double x, double y, char *message)
+{
+    struct gm_session *session = &play->session;
+    struct gm_choice choices[GM_CHOICES];
+    const struct gm_scene *scene = session->scene;
+    const void *parameters = gm_session_owner(session, play->selected, false);
+    const bool errors = scene->asked_shown && scene->asked_shown(scene, parameters) > 0;
+    if (!scene->point || errors) { /* a picture of errors has no starts */
+        return true;
+    }
+    size_t count = scene->point(parameters, x, y, choices);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_parameter *row = gm_scene_parameter(scene, choices[i].key);
+        if (!gm_session_set(session, play->selected, row, false, choices[i].value, &play->restart, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool add_lane(struct gm_play *play, char *message)
+{
+    const struct gm_scheme *scheme = gm_session_unused(&play->session);
+    if (!scheme) {
+        return gm_refuse(message, "Every scheme that fits has a lane already.");
+    }
+    if (!gm_session_add(&play->session, play->selected, scheme, message)) {
+        return false;
+    }
+    play->selected = play->session.count - 1;
+    return true;
+}
+
+void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm_capture *capture)
+{
+    struct gm_session *session = &play->session;
+    char message[GM_MESSAGE] = "";
+    if (play->restart && order->kind < GM_ORDER_SPEED) {
+        restart(play); /* a later order acts on the restarted lanes */
+    }
+    double due = due_time(play);
+    /* The other orders preserve the elapsed part of a step. */
+    bool jumps = order->kind <= GM_ORDER_RECORD || order->kind == GM_ORDER_RESTART;
+    bool ok = true;
+    switch (order->kind) {
+    case GM_ORDER_PAUSE:
+        play->paused = !play->paused;
+        break;
+    case GM_ORDER_FORWARD: {
+        const double next = gm_session_next(session);
+        play->paused = true;
+        while (isfinite(next) && gm_session_advance(session, next)) {
+        }
+        break;
+    }
+    case GM_ORDER_RESTART:
+        play->restart = true;
+        break;
+    case GM_ORDER_SPEED:
+        set_speed(play, play->speed + order->amount);
+        break;
+    case GM_ORDER_BACK:
+        play->paused = true;
+        ok = gm_session_back(session, message);
+        break;
+    case GM_ORDER_TURN:
+        ok = turn(play, message);
+        break;
+    case GM_ORDER_VISIT:
+        play->paused = true;
+        ok = gm_session_visit(session, moment_of(session, order), message);
+        break;
+    case GM_ORDER_AHEAD:
+        ok = run_ahead(play, order->text, message);
+        break;
+    case GM_ORDER_HALT:
+        play->ahead = false;
+        break;
+    case GM_ORDER_SELECT:
+        if (order->amount != 0) {
+            play->selected = (play->selected + session->count + (size_t)order->amount) % session->count;
+        } else if (order->value < (double)session->count) {
+            play->selected = (size_t)order->value;
+        }
+        break;
+    case GM_ORDER_LOOK:
+        ok = look(play, order, message);
+        break;
+    case GM_ORDER_POINT:
+        ok = start_from(play, order->x, order->y, message);
+        break;
+    case GM_ORDER_MOVE:
+    case GM_ORDER_NUDGE:
+    case GM_ORDER_STANDARD:
+    case GM_ORDER_TYPE:
+    case GM_ORDER_SLIDE:
+        move_parameter(play, order);
+        break;
+    case GM_ORDER_SWITCH:
+        ok = switch_scheme(play, order->scheme, message);
+        break;
+    case GM_ORDER_FORK:
+        ok = gm_session_fork(session, play->selected, order->scheme, message);
+        play->selected = ok ? session->count - 1 : play->selected;
+        break;
+    case GM_ORDER_OVERLAY:
+        ok = gm_session_overlay(session, message);
+        break;
+    case GM_ORDER_ADD:
+        ok = add_lane(play, message);
+        break;
+    case GM_ORDER_REMOVE:
+        ok = gm_session_remove(session, play->selected, message);
+        if (ok) {
+            forget_undos(play, play->selected);
+        }
+        play->selected = play->selected < session->count ? play->selected : session->count - 1;
+        break;
+    case GM_ORDER_RECORD:
+        ok = gm_capture_record(capture, session, (enum gm_theme)order->amount, message);
+        break;
+    case GM_ORDER_UNDO:
+        ok = undo(play, message);
+        break;
+    case GM_ORDER_TELL:
+        gm_capture_tell(capture, session, (enum gm_theme)order->amount);
+        break;
+    case GM_ORDER_SAVE:
+        ok = gm_capture_save(play, (enum gm_theme)order->amount, message);
+        break;
+    case GM_ORDER_SYSTEM:
+        ok = gm_capture_save_system(play, message);
+        break;
+    case GM_ORDER_TOUR:
+        play_tour_step(play, order->tour, order->step, order->amount != 0);
+        break;
+    case GM_ORDER_RUN:
+        play->paused = false;
+        break;
+    }
+    if (!ok) {
+        say(play, "%s", message);
+    }
+    if (order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_TURN || order->kind == GM_ORDER_VISIT) {
+        gm_agenda_rewind(&play->agenda, gm_session_time(session));
+    }
+    set_clock(play, jumps ? gm_session_time(session) : due);
+    play->changed = capture->unrecorded = true;
 }

@@ -89,32 +89,18 @@ struct gm_play {
 /* Starts playing an open session, at a speed at which the scene's time span takes some seconds. */
 void gm_play_begin(struct gm_play *play);
 
-/* Sets the message of the status line. */
-__attribute__((format(printf, 2, 3))) void gm_play_say(struct gm_play *play, const char *format, ...);
-
 /* ---- time ---- */
 
 /* Returns the model time per second: 1, 2 or 5 times a power of ten. */
 double gm_play_speed(const struct gm_play *play);
-/* Sets the speed by number (three per decade, 0 is 1 per second), limited to the range. */
-void gm_play_set_speed(struct gm_play *play, int number);
-/* Resumes model time from t. */
-void gm_play_set_clock(struct gm_play *play, double t);
-/* Returns the model time that is due. A lane behind the others, such as a new one, is stepped even while
-   paused. */
-double gm_play_due(const struct gm_play *play);
 /* Returns the model time left until t, in the direction in which time runs. */
 double gm_play_left_until(const struct gm_play *play, double t);
-/* Runs ahead to the time `to` without pausing. */
-void gm_play_run_ahead(struct gm_play *play, double to);
 
 /* ---- a round ---- */
 
 /* Restarts all lanes if requested and the last restart is long enough ago, so that several changes make
    one restart. */
 void gm_play_restart_if_due(struct gm_play *play);
-/* Restarts all lanes at once. */
-void gm_play_restart(struct gm_play *play);
 /* Steps for some milliseconds; returns false if no step was due. */
 bool gm_play_step(struct gm_play *play);
 /* Makes the changes that the agenda has due, and stops at the end of a tour's step. Returns true if a
@@ -124,12 +110,6 @@ bool gm_play_keep_agenda(struct gm_play *play);
 void gm_play_watch_frozen(struct gm_play *play);
 /* Returns the seconds until the next work is due; infinite if none is. */
 double gm_play_pause(const struct gm_play *play);
-
-/* ---- a tour ---- */
-
-/* Plays a step of a tour. The session must be at the start of step gm_tour_first(tour, step). If `waits`,
-   it pauses there. */
-void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t step, bool waits);
 
 /* Pictures, a movie, and command lines that redo a session. */
 
@@ -149,12 +129,14 @@ struct gm_capture {
 /* Frees the commands. Call gm_capture_stop_recording first. */
 void gm_capture_close(struct gm_capture *capture);
 
-/* Saves the played system to a file if it is user-defined. */
-void gm_capture_save_system(struct gm_play *play);
+/* These return false with a sentence (GM_MESSAGE bytes) for the status line, also on success. */
+/* Saves the played system to a file; true without a sentence if it is not user-defined. */
+bool gm_capture_save_system(const struct gm_play *play, char *sentence);
 /* Saves the picture as PNG to the working directory. */
-void gm_capture_save(struct gm_play *play, enum gm_theme theme);
+bool gm_capture_save(struct gm_play *play, enum gm_theme theme, char *sentence);
 /* Starts the movie, or finishes it. */
-void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme);
+bool gm_capture_record(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme,
+                       char *sentence);
 /* Finishes the movie. Returns true and fills sentence (GM_MESSAGE bytes) if there was one. */
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence);
 /* Records a frame of the movie if one is due. */

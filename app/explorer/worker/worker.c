@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "render/clock.h"
 #include "render/files/thread.h"
@@ -43,8 +43,7 @@ struct gm_worker {
 
 static void announce(struct gm_worker *worker)
 {
-    const uint64_t one = 1;
-    if (worker->wake >= 0 && write(worker->wake, &one, sizeof one) < 0) {
+    if (worker->wake >= 0 && eventfd_write(worker->wake, 1) < 0) {
         worker->leave = errno != EAGAIN; /* the screen is gone */
     }
 }

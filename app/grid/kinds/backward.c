@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/chart.h"
 #include "app/grid/hooks.h"
 #include "app/words/names.h"
 #include "core/arena.h"

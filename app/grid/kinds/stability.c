@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/grid/chart.h"
 #include "app/grid/grid.h"
 #include "app/grid/hooks.h"
 #include "core/arena.h"
@@ -102,13 +101,16 @@ const char *gm_stability_question(const struct gm_grid *grid, char *text, size_t
     return text;
 }
 
+/* A cell of a map: its letter, its word in tables, and the lane whose colour it has. */
 static const struct {
     char letter;
     const char *word;
-} verdicts[] = {[GM_BOUNDED] = {'.', ""},
-                [GM_LOST] = {'L', "lost"},
-                [GM_GAINED] = {'G', "gained"},
-                [GM_WRONG] = {'W', "wrong"}};
+    size_t lane;
+    double alpha;
+} verdicts[] = {[GM_BOUNDED] = {'.', "", 2, 0.22},
+                [GM_LOST] = {'L', "lost", 0, 0.55},
+                [GM_GAINED] = {'G', "gained", 1, 0.6},
+                [GM_WRONG] = {'W', "wrong", 3, 0.4}};
 
 const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *cell)
 {
@@ -322,16 +324,11 @@ enum { MOST_EDGES = 64 };
 
 static struct gm_style style_of(const struct gm_grid_cell *cell)
 {
-    static const struct {
-        size_t lane;
-        double alpha;
-    } colours[] = {
-        [GM_BOUNDED] = {2, 0.22}, [GM_LOST] = {0, 0.55}, [GM_GAINED] = {1, 0.6}, [GM_WRONG] = {3, 0.4}};
     if (cell->tried && cell->verdict == GM_FAILED) {
         return (struct gm_style){.role = GM_SECONDARY, .alpha = cell->status == GM_BLOW_UP ? 0.85 : 0.5};
     }
-    return (struct gm_style){.role = gm_lane_role(colours[cell->verdict].lane),
-                             .alpha = cell->tried ? colours[cell->verdict].alpha : 0};
+    return (struct gm_style){.role = gm_lane_role(verdicts[cell->verdict].lane),
+                             .alpha = cell->tried ? verdicts[cell->verdict].alpha : 0};
 }
 
 static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line, struct gm_picture *picture)

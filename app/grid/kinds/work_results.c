@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/chart.h"
 #include "app/grid/hooks.h"
 #include "core/expression/number.h"
 #include "render/cells/text.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/chart.h"
+#include "app/grid/grid.h"
 #include "app/grid/sweep.h"
 #include "app/output/row.h"
 #include "core/arena.h"
