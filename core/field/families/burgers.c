@@ -25,11 +25,7 @@
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
 #include "core/field/families/frames.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/linear/settled.h"
 
@@ -401,35 +397,17 @@ const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, is_of
 #define OF_BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("ftcs", "FTCS", 1, 0, "v = u − k u D₀u + kν D₂u,  or D₀(u²/2) for u D₀u",
-                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 97", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = ftcs}),
-    GM_FIELD_SCHEME("lax-wendroff", "Lax-Wendroff", 1, 0,
-                    "v = u − k D₀f + k²/2h² [A₊(fⱼ₊₁ − fⱼ) − A₋(fⱼ − fⱼ₋₁)] + kν D₂u,  f = u²/2",
-                    "P. Lax & B. Wendroff, Comm. Pure Appl. Math. 13 (1960) 217", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = lax_wendroff}),
-    GM_FIELD_SCHEME("crank-nicolson", "Crank-Nicolson", 2, 0,
-                    "(v − u)/k + (v D₀v + u D₀u)/2 = ν/2 (D₂u + D₂v)",
-                    "J. Crank & P. Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = crank_nicolson, .implicit = true}),
-    GM_FIELD_SCHEME("ftcs-invariant", "FTCS, invariant", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + kν D₂u/m]/m,  a₄ = −D₀u,  m = 1 + k D₀u,  σ the node's displacement",
-                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-                    OF_BURGERS, .coefficients = &(const struct method){.make = ftcs_invariant}),
-    GM_FIELD_SCHEME("lax-wendroff-invariant", "Lax-Wendroff, invariant", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + k/m (ν + ka²/2m) D₂u]/m,  a = (uⱼ₊₁ + 2uⱼ + uⱼ₋₁)/4 − σ/k",
-                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-                    OF_BURGERS, .coefficients = &(const struct method){.make = lax_wendroff_invariant}),
-    GM_FIELD_SCHEME(
-        "crank-nicolson-invariant", "Crank-Nicolson, invariant", 2, GM_EQUIVARIANT,
-        "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
-        "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)", OF_BURGERS,
-        .coefficients = &(const struct method){.make = crank_nicolson_invariant, .implicit = true}),
-    GM_FIELD_SCHEME("ftcs-family", "FTCS, family", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + k/m (ν D₂u − (u + a₅)(D₀u + a₄))]/m,  m = 1 − k a₄\n"
-                    "a₄ = [a uⱼ₊₁ − (1 + 2a) uⱼ + (1 + a) uⱼ₋₁]/h,  a₅ = d h² D₂u − u",
-                    "Razafindralandy et al. (2018), eqs. 111 and 117 to 119", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = ftcs_family, .family = true}),
+    {GM_TEXTS_ftcs, OF_BURGERS, .coefficients = &(const struct method){.make = ftcs}},
+    {GM_TEXTS_lax_wendroff, OF_BURGERS, .coefficients = &(const struct method){.make = lax_wendroff}},
+    {GM_TEXTS_crank_nicolson, OF_BURGERS,
+     .coefficients = &(const struct method){.make = crank_nicolson, .implicit = true}},
+    {GM_TEXTS_ftcs_invariant, OF_BURGERS, .coefficients = &(const struct method){.make = ftcs_invariant}},
+    {GM_TEXTS_lax_wendroff_invariant, OF_BURGERS,
+     .coefficients = &(const struct method){.make = lax_wendroff_invariant}},
+    {GM_TEXTS_crank_nicolson_invariant, OF_BURGERS,
+     .coefficients = &(const struct method){.make = crank_nicolson_invariant, .implicit = true}},
+    {GM_TEXTS_ftcs_family, OF_BURGERS,
+     .coefficients = &(const struct method){.make = ftcs_family, .family = true}},
 };
 
 const struct gm_family gm_family_burgers = {

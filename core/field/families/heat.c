@@ -17,11 +17,7 @@
    equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
 #include "core/field/families/frames.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
@@ -169,18 +165,10 @@ static struct gm_progress advance(const struct gm_task *task)
 #define OF_HEAT .family = &gm_family_heat, .needs = GM_NEEDS_HEAT
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("heat-ftcs", "FTCS", 1, 0, "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
-                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83", OF_HEAT,
-                    .coefficients = &(const struct row){.make = ordinary}),
-    GM_FIELD_SCHEME("heat-boosts", "FTCS, boosts", 1, GM_EQUIVARIANT,
-                    "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
-                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
-                    .coefficients = &(const struct row){.make = by_boosts}),
-    GM_FIELD_SCHEME("heat-projections", "FTCS, projections", 1, GM_EQUIVARIANT,
-                    "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
-                    "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
-                    "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)", OF_HEAT,
-                    .coefficients = &(const struct row){.make = by_projections, .projects = true}),
+    {GM_TEXTS_heat_ftcs, OF_HEAT, .coefficients = &(const struct row){.make = ordinary}},
+    {GM_TEXTS_heat_boosts, OF_HEAT, .coefficients = &(const struct row){.make = by_boosts}},
+    {GM_TEXTS_heat_projections, OF_HEAT,
+     .coefficients = &(const struct row){.make = by_projections, .projects = true}},
 };
 
 const struct gm_family gm_family_heat = {

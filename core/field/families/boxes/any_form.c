@@ -13,12 +13,7 @@
    even number no mean shows the part that alternates from node to node; it is left out. */
 #include "core/field/families/boxes/any_form.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/multisymplectic.h"
 
 static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
@@ -403,19 +398,9 @@ double gm_any_form_law(const struct gm_law *law)
 #define OF_ANY_FORM .family = &gm_family_any_form, .needs = GM_NEEDS_ALL
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME(
-        "box", "box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
-        "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
-        OF_ANY_FORM, .coefficients = &midpoint),
-    GM_FIELD_SCHEME("gauss-box3", "Gauss box, r = s = 2", 3, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-                    "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
-                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_ANY_FORM,
-                    .coefficients = &gm_collocation_gauss4),
-    GM_FIELD_SCHEME("gauss-box4", "Gauss box, r = s = 3", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-                    "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
-                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_ANY_FORM,
-                    .coefficients = &gauss6),
+    {GM_TEXTS_box_of_all_components, OF_ANY_FORM, .coefficients = &midpoint},
+    {GM_TEXTS_gauss_box3_of_all_components, OF_ANY_FORM, .coefficients = &gm_collocation_gauss4},
+    {GM_TEXTS_gauss_box4, OF_ANY_FORM, .coefficients = &gauss6},
 };
 
 const struct gm_family gm_family_any_form = {

@@ -10,12 +10,8 @@
                    stable for dt < dx^3/mu
    Nonlinear Schroedinger: schroedinger_nodes.c has its Euler box, and here is the law of both.
    B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). */
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
 #include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
@@ -285,14 +281,8 @@ double gm_nodes_form(const struct gm_law *law)
 #define OF_NODES .family = &gm_family_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_KDV
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
-                    "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_NODES,
-                    .coefficients = &kdv_rows[0]),
-    GM_FIELD_SCHEME("midpoint-box", "midpoint box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
-                    "Razafindralandy et al. (2018), multisymplectic midpoint scheme", OF_NODES,
-                    .coefficients = &kdv_rows[1]),
+    {GM_TEXTS_euler_box_of_korteweg, OF_NODES, .coefficients = &kdv_rows[0]},
+    {GM_TEXTS_midpoint_box_of_korteweg, OF_NODES, .coefficients = &kdv_rows[1]},
 };
 
 const struct gm_family gm_family_nodes = {

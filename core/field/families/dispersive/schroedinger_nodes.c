@@ -7,12 +7,8 @@
    for Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
    amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the limit of linear
    theory. */
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
 #include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/dispersive.h"
 
@@ -71,9 +67,7 @@ static struct gm_progress advance(const struct gm_task *task)
 #define OF_SCHROEDINGER_NODES .family = &gm_family_schroedinger_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_NLS
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("euler-box", "Euler box", 1, GM_MULTISYMPLECTIC,
-                    "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
-                    "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_SCHROEDINGER_NODES),
+    {GM_TEXTS_euler_box_of_schroedinger, OF_SCHROEDINGER_NODES},
 };
 
 const struct gm_family gm_family_schroedinger_nodes = {

@@ -6,12 +6,8 @@
    R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423; J.A.C. Weideman & B.M. Herbst, SIAM J. Numer. Anal. 23
    (1986) 485: stable for dt < dx^2/pi on a plane wave's background. */
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/problems/dispersive.h"
 #include "core/linear/fourier.h"
 
@@ -96,9 +92,7 @@ static struct gm_progress advance(const struct gm_task *task)
 #define OF_SPLIT_STEP .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("split-step2", "split step 2", 2, GM_SYMMETRIC | GM_KEEPS_QUADRATIC,
-                    "ψ := e^{i|ψ|²Δt/2} ψ,  ψₖ := e^{−ik²Δt} ψₖ,  ψ := e^{i|ψ|²Δt/2} ψ",
-                    "R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423", OF_SPLIT_STEP),
+    {GM_TEXTS_split_step2, OF_SPLIT_STEP},
 };
 
 const struct gm_family gm_family_split_step = {
