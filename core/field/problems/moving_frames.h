@@ -61,17 +61,6 @@ static inline bool gm_frame_rests(const struct gm_framed *framed, const struct g
 /* Returns the exact value at time t at the node that starts at x and moves with this speed. */
 double gm_frame_exact(const struct gm_framed *framed, double speed, double x, double t);
 
-/* The exact values that the first and the last node hold, if they move with this speed. Values of many steps are
-   computed together. */
-enum { GM_ENDS_BLOCK = 64 };
-struct gm_frame_ends {
-    double speed;
-    size_t next, count; /* of the values, which are those of the first node and then those of the last */
-    double values[2 * GM_ENDS_BLOCK];
-};
-/* Sets both ends of the level after step k of a task, from 0 on, one step after the other. */
-void gm_frame_ends_set(struct gm_frame_ends *ends, const struct gm_task *task, int64_t k, double *level);
-
 /* The heat equation: the divisor of the value at time t, in the new frame, at the node that was at x at the start and
    rests there (fixed) or moves, which gives the value in the original frame. */
 double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t);
