@@ -4,7 +4,6 @@
 
 #include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
-#include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/user/potential.h"
 #include "scenes/common/system/pieces.h"

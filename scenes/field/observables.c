@@ -7,9 +7,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
-#include "core/field/families/laws/form.h"
+#include "core/field/families/laws/local.h"
 #include "core/field/families/laws/wave.h"
 #include "core/tape.h"
 #include "scenes/common/system/pieces.h"
@@ -17,14 +15,7 @@
 
 static bool residuals(const struct gm_view *view, enum gm_local_law law, double *residual)
 {
-    if (gm_field_of(view->problem)->wave) {
-        return gm_wave_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
-    }
-    if (gm_field_of(view->problem)->form->hessians) {
-        return gm_form_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
-    }
-    return view->scheme->family == &gm_family_preissmann &&
-           gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    return gm_local_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
 }
 
 static double largest(const struct gm_view *view, enum gm_local_law law)

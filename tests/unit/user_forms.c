@@ -15,7 +15,8 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/families/laws/form.h"
+#include "core/field/families/boxes/any_form.h"
+#include "core/field/families/laws/local.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/wave.h"
@@ -237,8 +238,8 @@ static double residual_of(const char *text, size_t points, double dt, enum gm_lo
     struct gm_run *run = run_of(&typed.problem, "box", dt, typed.y);
     double *residual = malloc(points * sizeof *residual), largest = 0;
     assert_int_equal(gm_run_until(run, 2), GM_OK);
-    assert_true(gm_form_laws(&typed.problem, gm_scheme_find_for("box", &typed.problem), dt, gm_run_state(run),
-                             law, residual));
+    assert_true(gm_local_laws(&typed.problem, gm_scheme_find_for("box", &typed.problem), dt,
+                              gm_run_state(run), law, residual));
     for (size_t i = 0; i < points; i++) {
         largest = fmax(largest, fabs(residual[i]));
     }

@@ -10,9 +10,9 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/frames.h"
-#include "core/field/families/laws/form.h"
 #include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"

@@ -343,6 +343,40 @@ double gm_any_form_integral(const struct gm_problem *problem, const struct gm_sc
     return problem->line.dx * sum;
 }
 
+static double product(const double *matrix, size_t d, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < d; i++) {
+        for (size_t k = 0; k < d; k++) {
+            sum += a[i] * matrix[i * d + k] * b[k];
+        }
+    }
+    return sum;
+}
+
+static double energy_density(const struct gm_problem *problem, const double *s, const double *slope)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    return form->function(problem->parameters, s) - product(form->k, form->dimension, s, slope) / 2;
+}
+
+static double momentum_density(const struct gm_problem *problem, const double *s, const double *slope)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    return product(form->m, form->dimension, s, slope) / 2;
+}
+
+double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory)
+{
+    return gm_any_form_integral(problem, scheme, memory, energy_density);
+}
+
+double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        const double *memory)
+{
+    return gm_any_form_integral(problem, scheme, memory, momentum_density);
+}
+
 /* ---- the discrete multisymplectic law ---- */
 
 static void differentiate(const struct gm_law *law, const double *tangent, double *next)

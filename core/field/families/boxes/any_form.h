@@ -23,4 +23,12 @@ double gm_any_form_integral(const struct gm_problem *problem, const struct gm_sc
                             double (*density)(const struct gm_problem *problem, const double *s,
                                               const double *slope));
 
+/* The integrals of S(s) - s' K s_x / 2 and s' M s_x / 2, the energy and the momentum that follow from M s_t + K s_x = grad
+   S(s) by the product with s_t and with s_x, at the stages of the cells with the slopes that the boxes have there: of one
+   stage dx sum [S(A s) - (A s)' K D s / 2] and dx sum (A s)' M D s / 2. `memory` belongs to a run with the scheme, a row
+   of gm_family_any_form. NaN if it is NULL, or when out of memory. */
+double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *memory);
+double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        const double *memory);
+
 #endif

@@ -4,7 +4,7 @@
 
 #include "core/field/multisymplectic.h"
 
-/* The conservation laws of u_tt - u_xx + V'(u) = 0 and what is left of them on a grid. `y` is the state of a
+/* What u_tt - u_xx + V'(u) = 0 conserves, on a grid. `y` is the state of a
    wave problem: two levels, u and the other, o, and the time between them, dt.
        D f = (f_{i+1} - f_i)/dx,   A f = (f_i + f_{i+1})/2 */
 
@@ -18,10 +18,5 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
                           const double *memory);
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
-
-/* Measures the residual of the scheme's local law of energy or of momentum at every node, or in every cell
-   of the box. False if the scheme has other laws, when out of memory or if the step fails. */
-bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                  const double *y, enum gm_local_law law, double *residual);
 
 #endif
