@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/local.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/tape.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
@@ -158,21 +157,14 @@ double gm_field_solution_error(const struct gm_view *view)
     return largest;
 }
 
-/* Returns the largest stable step by linear theory; NaN if the scheme has no limit. */
-static double limit_at(const struct gm_view *view, const double *state)
-{
-    const struct gm_step_limit *limit = view->scheme->limit;
-    return limit ? limit->longest(view->problem, state) : NAN;
-}
-
 double gm_field_longest_step(const struct gm_view *view)
 {
-    return limit_at(view, view->state);
+    return gm_wave_longest_step(view->problem, view->scheme, view->state);
 }
 
 void gm_field_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const double longest = limit_at(view, view->start);
+    const double longest = gm_wave_longest_step(view->problem, view->scheme, view->start);
     text[0] = '\0';
     if (fabs(view->dt) > longest) {
         snprintf(text, size, "dt = %.4g is beyond %.4g, the limit of linear theory %s", fabs(view->dt),

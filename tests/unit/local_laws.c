@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/field/families/laws/local.h"
+#include "core/field/families/laws/laws.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"

@@ -14,10 +14,10 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"
 #include "core/model/recognition.h"

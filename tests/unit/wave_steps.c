@@ -12,8 +12,7 @@
 
 #include "core/basics.h"
 #include "core/certify.h"
-#include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/field/families/between_ends.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "core/basics.h"
+double gm_frame_exact(const struct gm_framed *framed, double speed, double x, double t)
+{
+    const double event[] = {x + speed * (t - framed->line.begin), t};
+    double value;
+    gm_user_line_events(&framed->line, event, 1, &value);
+    return value;
+}
 
 /* The exact values that the first and the last node hold, if they move with this speed. Values of many steps are
    computed together. */
@@ -39,15 +44,6 @@ static void set_ends(struct ends *ends, const struct gm_task *task, int64_t k, d
     ends->next++;
 }
 
-GM_CLONES static bool within(const double *u, size_t points, double from, double limit)
-{
-    long outside = 0;
-    for (size_t j = 0; j < points; j++) {
-        outside += !(fabs(u[j] - from) <= limit);
-    }
-    return outside == 0;
-}
-
 /* A level and its other half, and what its ends hold after the next steps. */
 struct run {
     double **level;
@@ -79,7 +75,7 @@ static enum gm_status make_step(const struct gm_task *task, struct run *run, int
     level[1][0] -= run->shift;
     level[1][grid->points - 1] -= run->shift;
     enum gm_status status = method->make(&step, progress);
-    if (status == GM_OK && !within(level[1], grid->points, run->middle, task->limit)) {
+    if (status == GM_OK && !gm_level_is_within(level[1], grid->points, run->middle, task->limit)) {
         status = GM_BLOW_UP;
     }
     if (status == GM_OK) {

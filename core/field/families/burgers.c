@@ -28,6 +28,14 @@
 #include "core/field/families/family.h"
 #include "core/linear/settled.h"
 
+const struct gm_problem gm_problem_burgers = {
+    .name = "Burgers",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.equation = GM_NEEDS_BURGERS},
+    .m = 1,
+    .bound = 1e3,
+};
+
 static const struct gm_burgers *burgers_of(const struct gm_ends_step *step)
 {
     return (const struct gm_burgers *)step->framed;
@@ -275,7 +283,12 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
                             : fabs(gm_ends_carried(method, carry, &step, symmetry, 0.3, &arrival) - arrival);
 }
 
-const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, gm_ends_are_special};
+static double seen(const struct gm_framed *framed, bool fixed, double x, double t, double u)
+{
+    return (void)fixed, (void)x, (void)t, u - framed->lambda;
+}
+
+const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, seen, gm_ends_are_special};
 
 #define OF_BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
 

@@ -13,11 +13,27 @@
    It is exact where ln u is a quadratic in x. Both need u > 0, the last one p k < 1; the one of boosts, like
    convection by centred differences, is stable for a^2 k < 2 nu.
 
-   Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers'
+   Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the boosts are those of P.J. Olver, Applications
+   of Lie Groups to Differential Equations (1993), ex. 2.41; the frame is built as theirs for Burgers'
    equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
 #include "core/field/families/between_ends.h"
 
 #include "core/field/families/family.h"
+
+const struct gm_problem gm_problem_heat = {
+    .name = "heat",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.equation = GM_NEEDS_HEAT},
+    .m = 1,
+    .bound = 1e200,
+};
+
+double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t)
+{
+    const double lambda = framed->lambda, passed = t - framed->line.begin;
+    const double original = fixed ? x - lambda * passed : x;
+    return exp(-lambda / (4 * framed->viscosity) * (2 * original + lambda * passed));
+}
 
 static enum gm_status ordinary(const struct gm_ends_step *step, struct gm_progress *progress)
 {
@@ -101,7 +117,12 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-const struct gm_moving_frames gm_frames_of_heat = {carry, find, defect, gm_ends_are_special};
+static double seen(const struct gm_framed *framed, bool fixed, double x, double t, double u)
+{
+    return u / gm_heat_factor(framed, fixed, x, t);
+}
+
+const struct gm_moving_frames gm_frames_of_heat = {carry, find, defect, seen, gm_ends_are_special};
 
 #define OF_HEAT .family = &gm_family_heat, .needs = GM_NEEDS_HEAT
 

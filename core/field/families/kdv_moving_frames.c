@@ -23,7 +23,7 @@
    order in time, and explicit; the frames as those of Razafindralandy et al. (2018), eqs. 86 to 91. */
 #include "core/field/families/family.h"
 #include "core/field/families/frames.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/ring/ring.h"
 #include "core/linear/settled.h"
 
@@ -357,7 +357,12 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, solves};
+static double seen(const struct gm_framed *framed, bool fixed, double x, double t, double u)
+{
+    return (void)fixed, (void)x, (void)t, u - framed->lambda / ((const struct gm_kdv *)framed)->eta;
+}
+
+const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, seen, solves};
 
 #define OF_KDV_MOVING_FRAMES .family = &gm_family_kdv_moving_frames, .needs = GM_NEEDS_KDV
 

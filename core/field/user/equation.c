@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 /* The parameters of every equation. */
 union equation {

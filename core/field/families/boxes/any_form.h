@@ -2,11 +2,20 @@
 #ifndef GM_CORE_FIELD_FAMILIES_BOXES_ANY_FORM_H
 #define GM_CORE_FIELD_FAMILIES_BOXES_ANY_FORM_H
 
-#include "core/field/families/boxes/collocation.h"
+#include "core/field/multisymplectic.h"
+
+enum { GM_COLLOCATION_STAGES = 3 };
+struct gm_collocation_tableau {
+    size_t r;
+    double a[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES], b[GM_COLLOCATION_STAGES],
+        c[GM_COLLOCATION_STAGES];
+};
 
 extern const struct gm_collocation_tableau gm_collocation_gauss4;
 
 /* The functions of a family of boxes; see gm_family. */
+void *gm_any_form_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_any_form_close(void *workspace);
 size_t gm_any_form_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_any_form_start(const struct gm_task *task);
 struct gm_progress gm_any_form_advance(const struct gm_task *task);

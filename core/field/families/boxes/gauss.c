@@ -26,8 +26,8 @@ const struct gm_family gm_family_gauss = {
     .loop = gm_any_form_advance,
     .memory = gm_any_form_memory,
     .start = gm_any_form_start,
-    .workspace_open = gm_collocation_open,
-    .workspace_close = gm_collocation_close,
+    .workspace_open = gm_any_form_open,
+    .workspace_close = gm_any_form_close,
     .form = gm_any_form_law,
     .wave_energy = wave_energy,
 };

@@ -332,11 +332,6 @@ struct base {
     double *now, *next, *cells; /* the means are those of the cells between both levels */
 };
 
-static size_t field_of(const struct gm_problem *problem)
-{
-    return (gm_field_of(problem)->dispersive->complex_valued ? 2 : 1) * problem->line.points;
-}
-
 static void means_of_cells(const struct base *base)
 {
     const size_t points = base->law->problem->line.points;
@@ -352,7 +347,8 @@ static void means_of_cells(const struct base *base)
 /* The level of the state and the next, with the means between. */
 static struct base base_of(const struct gm_law *law)
 {
-    const size_t size = 2 * law->problem->line.points, field = field_of(law->problem) * sizeof(double);
+    const size_t points = law->problem->line.points, size = 2 * points,
+                 field = parts_of(gm_field_of(law->problem)->dispersive) * points * sizeof(double);
     double *now = gm_arena_take(law->arena, 3 * size + law->problem->n, sizeof *now), *after = now + 3 * size;
     const struct base base = {law, now, now + size, now + 2 * size};
     if (!gm_law_step(law, 1, law->y, NULL, after, NULL)) {
@@ -367,7 +363,7 @@ static struct base base_of(const struct gm_law *law)
 static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     const struct gm_problem *problem = law->problem;
-    const size_t points = problem->line.points, field = field_of(problem);
+    const size_t points = problem->line.points, field = parts_of(gm_field_of(problem)->dispersive) * points;
     const struct base base = base_of(law);
     double *now = gm_arena_take(law->arena, 4 * points + 2, sizeof *now), *next = now + 2 * points + 1;
     for (size_t k = 0; k < 2; k++) {

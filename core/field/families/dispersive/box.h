@@ -10,9 +10,6 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task);
 void *gm_dispersive_open(const struct gm_problem *problem);
 double gm_dispersive_form(const struct gm_law *law);
 
-/* gm_family.form of the schemes of nodes. */
-double gm_nodes_form(const struct gm_law *law);
-
 /* Measures the residual of the local law of mass or charge over the next step of the box in every cell. */
 void gm_dispersive_content(const struct gm_law *law, void *residual);
 

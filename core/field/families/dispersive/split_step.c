@@ -8,7 +8,7 @@
 #include <complex.h>
 
 #include "core/field/families/family.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/fourier.h"
 
 struct work {

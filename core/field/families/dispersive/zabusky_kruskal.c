@@ -5,7 +5,7 @@
    Stable for dt below about 0.385 dx^3/mu. */
 #include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 /* 2 u_t at node i */
 static double twice_rate(const struct gm_problem *problem, const double *u, size_t i)

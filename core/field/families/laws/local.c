@@ -3,12 +3,12 @@
    equation with D_t A_x s, or D_x A_t s, is a difference in time and one in space but for S, and of S but for what is not
    quadratic in it (Razafindralandy et al. (2018), eqs. 35 and 36; B. Moore & S. Reich, Numer. Math. 95 (2003) 625). At the
    nodes of two-step schemes for waves: the product of their equation with centred differences. */
-#include "core/field/families/laws/local.h"
+#include "core/field/families/laws/laws.h"
 
 #include <stdlib.h>
 
 #include "core/certify.h"
-#include "core/field/families/boxes/collocation.h"
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/dispersive/box.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"

@@ -107,12 +107,7 @@ static const struct gm_two_step_row rows[] = {
      .keeps_change = true},
 };
 
-static double longest_explicit(const struct gm_problem *problem, const double *y)
-{
-    return gm_wave_longest(problem, y, 4, 4);
-}
-
-static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
+static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", 4, 4};
 
 #define OF_LEAPFROG .family = &gm_family_leapfrog, .needs = GM_NEEDS_WAVE
 

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid. */
-#include "core/field/families/laws/wave.h"
+/* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid, and fields as schemes represent them. */
+#include "core/field/families/laws/laws.h"
 
+#include <complex.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "core/field/families/two_step.h"
+#include "core/linear/curve.h"
 
 /* Adds a term to a sum and keeps what rounding would lose (Neumaier 1974): invariants are looked at to the
    last digit. */
@@ -72,4 +75,42 @@ double gm_wave_momentum(const struct gm_problem *problem, const double *y)
                4;
     }
     return -sum;
+}
+
+double gm_wave_longest_step(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
+{
+    const struct gm_step_limit *limit = scheme->limit;
+    const struct gm_grid1 *grid = &problem->line;
+    double most = 0;
+    for (size_t i = 0; limit && i < grid->points; i++) {
+        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
+    }
+    return limit ? sqrt(limit->square / (limit->stiffness / (grid->dx * grid->dx) + most)) : NAN;
+}
+
+bool gm_field_profile(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *u,
+                      double *values)
+{
+    const struct gm_grid1 *grid = &problem->line;
+    const size_t points = grid->points;
+    double *slopes = values + points;
+    for (size_t i = 0; i < points; i++) {
+        const double right = u[i + 1 < points ? i + 1 : 0];
+        values[i] = scheme->in_cells ? (u[i] + right) / 2 : u[i];
+        slopes[i] = (right - u[i]) / grid->dx;
+    }
+    if (!scheme->in_modes) {
+        return true;
+    }
+    const double unit = 2 * M_PI / (grid->dx * (double)points);
+    double complex *along = malloc(points * sizeof *along);
+    for (size_t i = 0; along && i < points; i++) {
+        along[i] = u[i];
+    }
+    const bool made = along && gm_curve_differentiate(along, points);
+    for (size_t i = 0; made && i < points; i++) {
+        slopes[i] = unit * creal(along[i]);
+    }
+    free(along);
+    return made;
 }
