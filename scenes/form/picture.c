@@ -9,7 +9,6 @@
 #include "core/linear/cholesky.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
-#include "scenes/field/field.h"
 #include "scenes/form/form.h"
 
 enum { MOST_GRAPHS = 3, LEVELS = 12 };
