@@ -25,7 +25,7 @@ static double exact_at_node(const struct gm_view *view, size_t node)
                           gm_grid1_node(&view->problem->line, node), view->t);
 }
 
-/* What the original frame sees of a value that starts at x, on nodes that rest in the frame or move along. */
+/* Returns a value as the original frame sees it, on nodes that start at x and rest in the frame or move along. */
 static double seen(const struct gm_view *view, bool fixed, double x, double u)
 {
     return gm_moving_frames_of(view->problem)->seen(gm_framed_of(view->problem), fixed, x, view->t, u);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every family of this wing includes. */
+/* The headers that every family of this wing includes. */
 #ifndef GM_CORE_FIELD_FAMILIES_FAMILY_H
 #define GM_CORE_FIELD_FAMILIES_FAMILY_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What fields conserve, on a grid, and their local laws. */
+/* Conserved quantities of fields on a grid, and local laws. */
 #ifndef GM_CORE_FIELD_FAMILIES_LAWS_LAWS_H
 #define GM_CORE_FIELD_FAMILIES_LAWS_LAWS_H
 
@@ -15,8 +15,8 @@
 bool gm_local_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                    const double *y, enum gm_local_law law, double *residual);
 
-/* What u_tt - u_xx + V'(u) = 0 conserves, on a grid. `y` is the state of a
-   wave problem: two levels, u and the other, o, and the time between them, dt.
+/* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid. `y` is the state of a wave problem: two levels, u and the
+   other, o, and the time between them, dt.
        D f = (f_{i+1} - f_i)/dx,   A f = (f_i + f_{i+1})/2 */
 
 /* dx sum [ ((u - o)/dt)^2 / 2 + D u D o / 2 + (V(u) + V(o)) / 2 ] */
