@@ -91,7 +91,8 @@ const struct gm_track gm_surface_track = {
 
 double gm_field_form_residual(const struct gm_view *view)
 {
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+    return gm_form_residual((struct gm_law){view->problem, view->scheme, view->dt, view->state, view->memory,
+                                            .by_differences = false});
 }
 
 double gm_view_own_energy(const struct gm_view *view)

@@ -144,7 +144,7 @@ static struct gm_observable *add(struct gm_user_field *field, struct gm_observab
 static void add_errors(struct gm_user_field *field)
 {
     const struct gm_system_item *known = gm_system_item_of(&field->of_file.system, GM_WORD_EXACT_WHILE, 0);
-    for (size_t i = 0; i < field->kind->error_count && field->solved; i++) {
+    for (size_t i = 0; i < field->kind->error_count; i++) {
         struct gm_observable *row = add(field, field->kind->errors[i]);
         row->missing = known && !row->missing ? known->text : row->missing;
     }
@@ -190,30 +190,34 @@ static void add_densities(struct gm_user_field *field)
     }
 }
 
-/* The kind's own, or those of a hook for it. */
-static void add_own(struct gm_user_field *field)
-{
-    const struct gm_field_kind *kind = field->kind;
-    const struct gm_hook *hook = field->of_file.hook;
-    const bool hooked =
-        hook && (kind->moves || kind == &gm_field_waves) && hook->on_moving_mesh == kind->moves;
-    const struct gm_observable *rows = hooked ? hook->observables : kind->observables;
-    const size_t count = hooked ? hook->observable_count : kind->observable_count;
-    for (size_t i = 0; i < count; i++) {
-        add(field, rows[i]);
-    }
-}
-
 static void make_observables(struct gm_user_field *field)
 {
-    static void (*const parts[])(struct gm_user_field *) = {add_own, add_errors, add_densities};
     struct gm_system_scene *of_file = &field->of_file;
     of_file->observables = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->observables);
     of_file->formulas = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->formulas);
     of_file->terms = gm_arena_take(of_file->arena, MOST_OBSERVABLES, sizeof *of_file->terms);
     of_file->scene.observables = of_file->observables;
-    for (size_t i = 0; i < GM_COUNT(parts); i++) {
-        parts[field->kind->equation ? GM_COUNT(parts) - 1 - i : i](field); /* laws and symmetries come last */
+    if (field->kind->equation) { /* laws and symmetries come last */
+        add_densities(field);
+    }
+    const bool moves = field->kind->moves;
+    const struct gm_hook *hook =
+        of_file->hook && (moves || field->kind == &gm_field_waves) && of_file->hook->on_moving_mesh == moves
+            ? of_file->hook
+            : NULL;
+    const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
+    const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
+    for (size_t i = 0; !field->kind->equation && i < row_count; i++) {
+        add(field, rows[i]);
+    }
+    if (field->solved) {
+        add_errors(field);
+    }
+    for (size_t i = 0; field->kind->equation && i < row_count; i++) {
+        add(field, rows[i]);
+    }
+    if (!field->kind->equation) {
+        add_densities(field);
     }
     of_file->scene.observable_count = of_file->observable_count;
 }

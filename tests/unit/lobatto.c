@@ -179,8 +179,10 @@ static void the_law_holds(void **unused)
         struct gm_run *run = open_run(&problem, names[s], 100, 0.1);
         assert_int_equal(gm_run_advance(run, 20), GM_OK);
         const struct gm_scheme *scheme = gm_scheme_find(names[s]);
-        const double law = gm_form_residual(&problem, scheme, 0.1, gm_run_state(run), gm_run_memory(run));
-        const double defect = gm_form_defect(&problem, scheme, 0.1, gm_run_state(run), gm_run_memory(run));
+        const double law = gm_form_residual((struct gm_law){&problem, scheme, 0.1, gm_run_state(run),
+                                                            gm_run_memory(run), .by_differences = false});
+        const double defect = gm_form_residual((struct gm_law){&problem, scheme, 0.1, gm_run_state(run),
+                                                               gm_run_memory(run), .by_differences = true});
         print_message("%s: %.1e, by differences %.1e\n", names[s], law, defect);
         assert_true(law < 1e-11 && defect < 1e-8);
         /* other weights in time are caught */
@@ -190,7 +192,8 @@ static void the_law_holds(void **unused)
             row.kick[1] = 0.66;
             struct gm_scheme wrong = *scheme;
             wrong.coefficients = &row;
-            assert_true(gm_form_residual(&problem, &wrong, 0.1, gm_run_state(run), gm_run_memory(run)) >
+            assert_true(gm_form_residual((struct gm_law){&problem, &wrong, 0.1, gm_run_state(run),
+                                                         gm_run_memory(run), .by_differences = false}) >
                         1e-6);
         }
         gm_run_close(run);

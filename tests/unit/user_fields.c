@@ -71,7 +71,8 @@ static void advance(const struct gm_problem *problem, const char *name, double d
     assert_int_equal(gm_run_advance(run, steps), GM_OK);
     memcpy(y, gm_run_state(run), SIZE * sizeof *y);
     if (residual) {
-        *residual = gm_form_residual(problem, scheme, dt, y, gm_run_memory(run));
+        *residual = gm_form_residual(
+            (struct gm_law){problem, scheme, dt, y, gm_run_memory(run), .by_differences = false});
     }
     gm_run_close(run);
 }

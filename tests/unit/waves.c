@@ -305,14 +305,17 @@ static void expect_law(const struct gm_problem *problem, const char *name, doubl
     assert_non_null(run);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
     const double *state = gm_run_state(run), *memory = gm_run_memory(run);
-    const double residual = gm_form_residual(problem, scheme, dt, state, memory);
-    const double defect = gm_form_defect(problem, scheme, dt, state, memory);
+    const double residual =
+        gm_form_residual((struct gm_law){problem, scheme, dt, state, memory, .by_differences = false});
+    const double defect =
+        gm_form_residual((struct gm_law){problem, scheme, dt, state, memory, .by_differences = true});
     struct gm_family family = *scheme->family;
     struct gm_scheme wrong = *scheme;
     rubbed = scheme->family;
     family.loop = rub;
     wrong.family = &family;
-    const double friction = gm_form_defect(problem, &wrong, dt, state, memory);
+    const double friction =
+        gm_form_residual((struct gm_law){problem, &wrong, dt, state, memory, .by_differences = true});
     if (kept ? !(residual < 1e-11 && defect < 1e-8 && friction > 1e-6)
              : !(residual > 1e-4 && defect > 1e-4)) {
         fail_msg("%s, %s: residual %.2e, by differences %.2e, with friction %.2e", problem->name, name,
@@ -362,7 +365,8 @@ static void the_form_is_kept_or_not(void **unused)
     expect_law(&nls, "euler-box", 0.02, y, true);
     expect_law(&nls, "euler-box", -0.02, y, true);
     struct gm_run *run = gm_run_open(&nls, gm_scheme_find("split-step2"), &no_settings, 0, 0.02, y);
-    assert_true(isnan(gm_form_residual(&nls, run->scheme, 0.02, y, NULL)));
+    assert_true(
+        isnan(gm_form_residual((struct gm_law){&nls, run->scheme, 0.02, y, NULL, .by_differences = false})));
     gm_run_close(run);
 }
 
@@ -377,8 +381,8 @@ static void many_cells(void **unused)
             struct gm_problem problem;
             struct gm_run *run = breather_run(&problem, names[s], points, 0.1);
             assert_int_equal(gm_run_advance(run, 20), GM_OK);
-            const double residual =
-                gm_form_residual(&problem, run->scheme, 0.1, gm_run_state(run), gm_run_memory(run));
+            const double residual = gm_form_residual((struct gm_law){
+                &problem, run->scheme, 0.1, gm_run_state(run), gm_run_memory(run), .by_differences = false});
             if (!(residual < 1e-10)) {
                 fail_msg("%s, %zu cells: %.2e", names[s], points, residual);
             }

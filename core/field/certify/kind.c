@@ -174,7 +174,8 @@ static void note_form(struct gm_certificate *certificate, struct subject *subjec
     gm_run_advance(subject->run, 25);
     const double *const now = gm_run_state(subject->run);
     const double defect =
-        gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
+        gm_form_residual((struct gm_law){&subject->problem, subject->scheme, subject->dt, now,
+                                         gm_run_memory(subject->run), .by_differences = true});
     if (!isnan(defect)) {
         gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
         note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes_of(subject) / over,

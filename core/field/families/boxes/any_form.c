@@ -1018,11 +1018,6 @@ static void combine(struct work *work, const double *stages, double *values,
     }
 }
 
-static void to_nodes(struct work *work, const double *stages, double *nodes)
-{
-    combine(work, stages, nodes, node_weights);
-}
-
 /* The slopes of values at the stages, there. */
 static void find_slopes(struct work *work, const double *stages, double *slopes)
 {
@@ -1315,9 +1310,9 @@ static void shift(double **now, double **past)
 /* The state at the nodes; of a wave u at the level before as well, which `work->high` holds. */
 static void find_state(struct work *work, double dt, double *state)
 {
-    to_nodes(work, work->low, state);
+    combine(work, work->low, state, node_weights);
     if (gm_field_of(work->problem)->wave) {
-        to_nodes(work, work->high, state + work->points);
+        combine(work, work->high, state + work->points, node_weights);
         state[2 * work->points] = -dt;
     }
 }

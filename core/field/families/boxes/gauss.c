@@ -14,10 +14,9 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
     return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
 }
 
-#define OF_GAUSS .family = &gm_family_gauss, .needs = GM_NEEDS_WAVE
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_gauss_box3_of_waves, OF_GAUSS, .coefficients = &gm_collocation_gauss4},
+    {GM_TEXTS_gauss_box3_of_waves, .family = &gm_family_gauss, .needs = GM_NEEDS_WAVE,
+     .coefficients = &gm_collocation_gauss4},
 };
 
 const struct gm_family gm_family_gauss = {

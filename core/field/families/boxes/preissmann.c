@@ -194,10 +194,9 @@ static double form(const struct gm_law *law)
     return is_wave(law->problem) ? gm_wave_form(law) : gm_dispersive_form(law);
 }
 
-#define OF_PREISSMANN .family = &gm_family_preissmann, .needs = GM_NEEDS_FORM, .in_cells = true
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_box_of_a_field, OF_PREISSMANN, .coefficients = &row},
+    {GM_TEXTS_box_of_a_field, .family = &gm_family_preissmann, .needs = GM_NEEDS_FORM, .in_cells = true,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_preissmann = {

@@ -143,10 +143,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-#define OF_PSEUDOSPECTRAL .family = &gm_family_pseudospectral, .needs = GM_NEEDS_KDV, .in_modes = true
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_fourier_rk4, OF_PSEUDOSPECTRAL},
+    {GM_TEXTS_fourier_rk4, .family = &gm_family_pseudospectral, .needs = GM_NEEDS_KDV, .in_modes = true},
 };
 
 const struct gm_family gm_family_pseudospectral = {

@@ -135,10 +135,9 @@ static double form(const struct gm_law *law)
     return gm_nodes_law(law, false, complete, &a, &b);
 }
 
-#define OF_SCHROEDINGER_NODES .family = &gm_family_schroedinger_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_NLS
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_euler_box_of_schroedinger, OF_SCHROEDINGER_NODES},
+    {GM_TEXTS_euler_box_of_schroedinger, .family = &gm_family_schroedinger_nodes,
+     .needs = GM_NEEDS_FORM | GM_NEEDS_NLS},
 };
 
 const struct gm_family gm_family_schroedinger_nodes = {

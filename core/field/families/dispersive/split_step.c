@@ -89,10 +89,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-#define OF_SPLIT_STEP .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_split_step2, OF_SPLIT_STEP},
+    {GM_TEXTS_split_step2, .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true},
 };
 
 const struct gm_family gm_family_split_step = {

@@ -54,10 +54,9 @@ static void start(struct gm_two_step_work *work, const struct gm_problem *proble
 
 static const struct gm_two_step_row row = {.step = step, .start = start, .law = GM_LAW_NONE};
 
-#define OF_ZABUSKY_KRUSKAL .family = &gm_family_zabusky_kruskal, .needs = GM_NEEDS_KDV
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_zabusky_kruskal, OF_ZABUSKY_KRUSKAL, .coefficients = &row},
+    {GM_TEXTS_zabusky_kruskal, .family = &gm_family_zabusky_kruskal, .needs = GM_NEEDS_KDV,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_zabusky_kruskal = {

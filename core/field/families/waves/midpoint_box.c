@@ -104,10 +104,9 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 static const struct gm_two_step_row row = {
     .step = centred_step, .start = first_level, .law = GM_LAW_CENTRED, .keeps_rates = true};
 
-#define OF_MIDPOINT_BOX .family = &gm_family_midpoint_box, .needs = GM_NEEDS_WAVE
-
 static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_midpoint_box_of_waves, OF_MIDPOINT_BOX, .coefficients = &row},
+    {GM_TEXTS_midpoint_box_of_waves, .family = &gm_family_midpoint_box, .needs = GM_NEEDS_WAVE,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_midpoint_box = {
