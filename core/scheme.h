@@ -63,10 +63,10 @@ struct gm_coefficients;  /* core/theory/coefficients.h */
 struct gm_law;           /* core/field/multisymplectic.h */
 struct gm_member_family; /* core/ode/kernel/members.h */
 
-/* The bound of linear theory on a scheme's steps. */
+/* The bound of linear theory on a scheme's steps dt of a wave, square/dt^2 >= stiffness/dx^2 + V'' wherever u is. */
 struct gm_step_limit {
-    const char *condition;                                                /* "4/dt^2 >= 4/dx^2 + V''" */
-    double (*longest)(const struct gm_problem *problem, const double *y); /* longest step about the state y */
+    const char *condition; /* "4/dt^2 >= 4/dx^2 + V''" */
+    double square, stiffness;
 };
 
 /* A scheme is a row of data. A number at the end of a name is the order. */

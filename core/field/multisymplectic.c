@@ -194,22 +194,10 @@ static void find_residual(const struct gm_law *law, void *residual)
     *(double *)residual = law->scheme->family->form(law);
 }
 
-static double residual_of(struct gm_law law)
+double gm_form_residual(struct gm_law law)
 {
     double residual = NAN;
     return law.scheme->family->form && gm_law_measure(&law, find_residual, &residual) ? residual : NAN;
-}
-
-double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                        const double *y, const double *memory)
-{
-    return residual_of((struct gm_law){problem, scheme, dt, y, memory, .by_differences = false});
-}
-
-double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                      const double *y, const double *memory)
-{
-    return residual_of((struct gm_law){problem, scheme, dt, y, memory, .by_differences = true});
 }
 
 void gm_tangent_start(double *tangent, size_t points, double waves, double phase)

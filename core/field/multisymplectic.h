@@ -77,18 +77,12 @@ enum { GM_LARGEST_FORM = 4 };
 double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *complete, const void *a,
                     const void *b);
 
-/* The residual of the scheme's multisymplectic law (core/field/multisymplectic.h) over the grid, with two
-   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of
-   the linearised scheme; the variables that elimination left out are found again from the scheme's
-   equations. `memory` is the scheme's own, if it has one. NaN if a scheme lacks such a law, when out of
+/* The residual of the scheme's multisymplectic law over the grid, with two tangent solutions that start from unit waves at
+   the last levels of the state and make one step of the linearised scheme; the variables that elimination left out are found
+   again from the scheme's equations. With tangents that are extrapolated differences of the scheme's own steps the law tests
+   only the step itself; it is then accurate to about 1e-9. Needs no arena. NaN if a scheme lacks such a law, when out of
    memory or when the next step fails. */
-double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                        const double *y, const double *memory);
-
-/* The residual of the law with tangents that are extrapolated differences of the scheme's own steps, so
-   that the law tests only the step itself; accurate to about 1e-9. */
-double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                      const double *y, const double *memory);
+double gm_form_residual(struct gm_law law);
 
 /* The local laws of a field on the line: of what its flow carries along (mass, charge), of energy and of
    momentum,

@@ -43,6 +43,13 @@ const char *gm_step_text(struct gm_picture *picture, double dt)
     return fraction ? fraction : gm_picture_text(picture, "%s%.4g", dt < 0 ? "−" : "", fabs(dt));
 }
 
+const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    return gm_one_step(lanes, count)
+               ? gm_picture_text(picture, ",  Δt = %s", gm_step_text(picture, lanes[0]->run->dt))
+               : "";
+}
+
 const char *gm_time_text(struct gm_picture *picture, double t, double dt)
 {
     const char *fraction = in_pi(picture, t, dt);

@@ -15,6 +15,9 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt);
 /* A time step, to four digits or as a fraction of pi. */
 const char *gm_step_text(struct gm_picture *picture, double dt);
 
+/* The time step that all lanes share, as ",  dt = 0.05"; "" if they differ. */
+const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+
 /* The name of a lane's panel, and the end of its note: the failure of the run, or a lost conserved quantity
    (gm_lane_lost), else "". */
 const char *gm_lane_title(const struct gm_lane *lane);

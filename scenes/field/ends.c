@@ -25,6 +25,23 @@ static double exact_at_node(const struct gm_view *view, size_t node)
                           gm_grid1_node(&view->problem->line, node), view->t);
 }
 
+/* Returns a value as the original frame sees it, on nodes that start at x and rest in the frame or move along. */
+static double seen(const struct gm_view *view, bool fixed, double x, double u)
+{
+    return gm_moving_frames_of(view->problem)->seen(gm_framed_of(view->problem), fixed, x, view->t, u);
+}
+
+static double at_rest(const struct gm_view *view, size_t node)
+{
+    return seen(view, gm_frame_rests(gm_framed_of(view->problem), view->scheme),
+                gm_grid1_node(&view->problem->line, node), view->state[node]);
+}
+
+static double exact_at_rest(const struct gm_view *view, double x)
+{
+    return seen(view, false, x, gm_frame_exact(gm_framed_of(view->problem), lambda_of(view), x, view->t));
+}
+
 /* Evaluates at the nodes from end to end. */
 static bool place_between_ends(const struct gm_view *view, size_t i, double *values, double *weight)
 {
@@ -44,7 +61,7 @@ static bool place_between_ends(const struct gm_view *view, size_t i, double *val
 
 #define BETWEEN_ENDS                                                                                         \
     .graph_count = GM_MOST_FIELD_GRAPHS, .frame_shown = 1, .paint = gm_draw_profiles,                        \
-    .place = place_between_ends
+    .place = place_between_ends, .value = at_rest, .exact = exact_at_rest
 
 #define PROFILES_ROW                                                                                         \
     GM_CHOICE_ROW(GM_FIELD_LANE, grid.show, "show", "profiles", profiles_or_frame,                           \
@@ -59,17 +76,6 @@ static double factor(const struct gm_view *view, size_t j)
     const struct gm_framed *framed = gm_framed_of(view->problem);
     return gm_heat_factor(framed, gm_frame_rests(framed, view->scheme),
                           gm_grid1_node(&view->problem->line, j), view->t);
-}
-
-static double heat_at_rest(const struct gm_view *view, size_t j)
-{
-    return view->state[j] / factor(view, j);
-}
-
-static double heat_exact_at_rest(const struct gm_view *view, double x)
-{
-    const struct gm_framed *framed = gm_framed_of(view->problem);
-    return gm_frame_exact(framed, framed->lambda, x, view->t) / gm_heat_factor(framed, false, x, view->t);
 }
 
 static double heat_error(const struct gm_view *view)
@@ -138,21 +144,10 @@ const struct gm_field_kind gm_field_heat = {
     .equation = GM_NEEDS_HEAT,    .graphs = {{"boost_defect"}, {"sup_error", "boost_defect"}},
     .schemes = schemes_of_heat,   .admits = is_bounded,
     .start = gm_equation_start,   BETWEEN_ENDS,
-    .value = heat_at_rest,        .exact = heat_exact_at_rest,
     .failure = heat_failure,
 };
 
 /* ---- Burgers' equation ---- */
-
-static double burgers_at_rest(const struct gm_view *view, size_t node)
-{
-    return view->state[node] - lambda_of(view);
-}
-
-static double burgers_exact_at_rest(const struct gm_view *view, double x)
-{
-    return gm_frame_exact(gm_framed_of(view->problem), lambda_of(view), x, view->t) - lambda_of(view);
-}
 
 /* Returns the largest error at a node; *sum is that of all. */
 static double error(const struct gm_view *view, double *sum)
@@ -183,7 +178,7 @@ static double amplitude(const struct gm_view *view)
 {
     double largest = 0;
     for (size_t j = 0; j < view->problem->line.points; j++) {
-        largest = fmax(largest, fabs(burgers_at_rest(view, j)));
+        largest = fmax(largest, fabs(at_rest(view, j)));
     }
     return largest;
 }
@@ -309,6 +304,4 @@ const struct gm_field_kind gm_field_burgers = {
     .admits = is_held,
     .start = start_burgers,
     BETWEEN_ENDS,
-    .value = burgers_at_rest,
-    .exact = burgers_exact_at_rest,
 };

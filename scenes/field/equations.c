@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/profile.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/families/laws/laws.h"
+#include "core/field/problems/problems.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/frames.h"
 
@@ -50,11 +50,10 @@ static double *profile_of(const struct gm_view *view)
     }
     double *all = malloc(2 * n * points * sizeof *all);
     for (size_t c = 0; all && c < n; c++) {
-        double *one = gm_field_profile(view->problem, &scheme, view->state + c * points);
-        for (size_t i = 0; i < 2 * points; i++) {
-            all[2 * c * points + i] = one ? one[i] : NAN;
+        if (!gm_field_profile(view->problem, &scheme, view->state + c * points, all + 2 * c * points)) {
+            free(all);
+            return NULL;
         }
-        free(one);
     }
     return all;
 }

@@ -7,8 +7,23 @@
 #include "core/field/user/form.h"
 #include "core/mesh/user/potential.h"
 #include "core/ode/user/evolution.h"
+#include "scenes/common/graph.h"
 #include "scenes/common/system/look.h"
-#include "scenes/field/field.h"
+
+/* The choice drawn over space and time: the field, or a law, number GM_SHOW_FIELD + 1 + enum gm_local_law. */
+enum { GM_SHOW_FIELD };
+
+/* The look of a lane's field. */
+struct gm_field_look {
+    double (*value)(const struct gm_view *view, size_t node);
+    double (*exact)(const struct gm_view *view, double x); /* NULL: not drawn */
+    const char *name;                                      /* the name of the value, for axes: "u" */
+    double low, high;                                      /* the least range of values that is shown */
+    enum gm_colour_map map;
+    double reach;        /* half of the line's part that is drawn, of profiles at rest */
+    int show;            /* the content of the surfaces: GM_SHOW_FIELD or a law */
+    const char *content; /* the name of the third law: "mass" */
+};
 
 enum { GM_MOST_FIELD_GRAPHS = 3 };
 

@@ -4,8 +4,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
-#include "core/field/families/laws/form.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/user/potential.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
@@ -22,6 +21,11 @@ static const char *const boundaries[] = {"ring", "walls", NULL},
 #define HIGHEST                                                                                              \
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
         GM_OBSERVABLE("crest", crest, "x where u is highest")
+
+static double value_of_first(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
 
 /* The scale is 1: the momentum of a breather is 0, of a sine-Gordon kink its mass 8 times its velocity. */
 static double unit_momentum(const struct gm_view *view)
@@ -137,7 +141,7 @@ const struct gm_field_kind gm_field_waves = {
     .open = open_wave,
     .closes = gm_user_wave_closes,
     .draw = gm_field_draw,
-    .value = gm_field_u,
+    .value = value_of_first,
     .exact = gm_field_exact,
     .place = place_wave,
 };
@@ -229,7 +233,7 @@ const struct gm_field_kind gm_field_moving_waves = {
     .open = open_mesh,
     .closes = gm_user_mesh_rests,
     .draw = gm_field_draw_mesh,
-    .value = gm_field_u,
+    .value = value_of_first,
     .place = place_on_mesh,
 };
 
@@ -289,7 +293,7 @@ const struct gm_field_kind gm_field_nodes = {
     .open = open_mesh,
     .closes = gm_user_mesh_rests,
     .draw = gm_field_draw_mesh,
-    .value = gm_field_u,
+    .value = value_of_first,
 };
 
 static bool open_evolution(struct gm_problem *problem, const struct gm_system_lane *lane,
@@ -319,7 +323,7 @@ const struct gm_field_kind gm_field_evolutions = {
     .closes = gm_user_evolution_closes,
     .start = gm_user_evolution_start,
     .draw = gm_field_draw,
-    .value = gm_field_u,
+    .value = value_of_first,
     .exact = gm_field_exact,
 };
 
@@ -373,7 +377,7 @@ const struct gm_field_kind gm_field_forms = {
     .closes = gm_user_form_closes,
     .start = gm_user_form_start,
     .draw = gm_field_draw,
-    .value = gm_field_u,
+    .value = value_of_first,
     .exact = gm_field_exact,
     .place = place_in_cell,
 };

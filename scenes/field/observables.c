@@ -7,24 +7,14 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
-#include "core/field/families/laws/form.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/tape.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
 
 static bool residuals(const struct gm_view *view, enum gm_local_law law, double *residual)
 {
-    if (gm_field_of(view->problem)->wave) {
-        return gm_wave_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
-    }
-    if (gm_field_of(view->problem)->form->hessians) {
-        return gm_form_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
-    }
-    return view->scheme->family == &gm_family_preissmann &&
-           gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    return gm_local_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
 }
 
 static double largest(const struct gm_view *view, enum gm_local_law law)
@@ -101,7 +91,8 @@ const struct gm_track gm_surface_track = {
 
 double gm_field_form_residual(const struct gm_view *view)
 {
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+    return gm_form_residual((struct gm_law){view->problem, view->scheme, view->dt, view->state, view->memory,
+                                            .by_differences = false});
 }
 
 double gm_view_own_energy(const struct gm_view *view)
@@ -167,21 +158,14 @@ double gm_field_solution_error(const struct gm_view *view)
     return largest;
 }
 
-/* Returns the largest stable step by linear theory; NaN if the scheme has no limit. */
-static double limit_at(const struct gm_view *view, const double *state)
-{
-    const struct gm_step_limit *limit = view->scheme->limit;
-    return limit ? limit->longest(view->problem, state) : NAN;
-}
-
 double gm_field_longest_step(const struct gm_view *view)
 {
-    return limit_at(view, view->state);
+    return gm_wave_longest_step(view->problem, view->scheme, view->state);
 }
 
 void gm_field_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const double longest = limit_at(view, view->start);
+    const double longest = gm_wave_longest_step(view->problem, view->scheme, view->start);
     text[0] = '\0';
     if (fabs(view->dt) > longest) {
         snprintf(text, size, "dt = %.4g is beyond %.4g, the limit of linear theory %s", fabs(view->dt),

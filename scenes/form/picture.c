@@ -10,7 +10,6 @@
 #include "core/linear/vectors.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
-#include "scenes/field/field.h"
 #include "scenes/form/form.h"
 
 enum { MOST_GRAPHS = 3, LEVELS = 12 };

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"
 #include "core/ode/problems/problems.h"

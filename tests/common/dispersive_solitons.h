@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "tests/common/kdv_solutions.h"
 
 /* One soliton of Korteweg-de Vries and one of nonlinear Schroedinger, with velocity 1 from x = -5, on a ring

@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_COMMON_FRAMED_H
 #define GM_TESTS_COMMON_FRAMED_H
 
-#include "core/field/problems/moving_frames.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/equation.h"
 
 /* Exact solutions of the heat equation and of Burgers' equation from frames of reference, and the problems of the built-in files

@@ -2,7 +2,7 @@
 #ifndef GM_TESTS_COMMON_KDV_SOLUTIONS_H
 #define GM_TESTS_COMMON_KDV_SOLUTIONS_H
 
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 /* Starts of Korteweg and de Vries' equation, with exact solutions but for the cosine. */
 enum kdv_initial {

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/kdv_solutions.h"

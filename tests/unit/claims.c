@@ -16,7 +16,7 @@
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/lobatto.h"
-#include "core/field/problems/moving_frames.h"
+#include "core/field/problems/problems.h"
 #include "core/flow/families/families.h"
 #include "core/mesh/families/families.h"
 #include "core/ode/families/compositions.h"

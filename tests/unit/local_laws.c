@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/field/families/dispersive/box.h"
+#include "core/field/families/laws/laws.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"
@@ -151,8 +151,8 @@ static void expect_laws(struct gm_run *run, bool complex_valued)
     memcpy(now, gm_run_state(run), sizeof now);
     double of_step[LAWS][POINTS];
     for (int law = 0; law < LAWS; law++) {
-        assert_true(gm_dispersive_laws(run->problem, run->scheme, run->dt, now, (enum gm_local_law)law,
-                                       of_step[law]));
+        assert_true(
+            gm_local_laws(run->problem, run->scheme, run->dt, now, (enum gm_local_law)law, of_step[law]));
     }
     assert_int_equal(gm_run_advance(run, 1), GM_OK);
     const double *next = gm_run_state(run), dx = run->problem->line.dx;

@@ -13,10 +13,10 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"
 #include "core/model/recognition.h"
@@ -71,7 +71,8 @@ static void advance(const struct gm_problem *problem, const char *name, double d
     assert_int_equal(gm_run_advance(run, steps), GM_OK);
     memcpy(y, gm_run_state(run), SIZE * sizeof *y);
     if (residual) {
-        *residual = gm_form_residual(problem, scheme, dt, y, gm_run_memory(run));
+        *residual = gm_form_residual(
+            (struct gm_law){problem, scheme, dt, y, gm_run_memory(run), .by_differences = false});
     }
     gm_run_close(run);
 }

@@ -14,10 +14,10 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/form.h"
+#include "core/field/families/boxes/any_form.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/form.h"
 #include "core/model/equations.h"
 #include "core/run.h"
@@ -185,10 +185,12 @@ static void the_multisymplectic_law_holds(void **unused)
             struct gm_run *run = run_of(&typed.problem, boxes[s], steps[i], typed.y);
             assert_int_equal(gm_run_advance(run, 10), GM_OK);
             const struct gm_scheme *scheme = gm_scheme_find_for(boxes[s], &typed.problem);
-            const double exact = gm_form_residual(&typed.problem, scheme, steps[i], gm_run_state(run),
-                                                  gm_run_memory(run)),
-                         own = gm_form_defect(&typed.problem, scheme, steps[i], gm_run_state(run),
-                                              gm_run_memory(run));
+            const double exact = gm_form_residual((struct gm_law){&typed.problem, scheme, steps[i],
+                                                                  gm_run_state(run), gm_run_memory(run),
+                                                                  .by_differences = false}),
+                         own = gm_form_residual((struct gm_law){&typed.problem, scheme, steps[i],
+                                                                gm_run_state(run), gm_run_memory(run),
+                                                                .by_differences = true});
             if (!(exact < 1e-10 && own < 1e-8)) {
                 fail_msg("%s, %zu: %.2e, %.2e", boxes[s], i, exact, own);
             }
@@ -217,8 +219,9 @@ static void friction_breaks_it(void **unused)
             form.m = rubbed ? m : gm_field_of(&typed.problem)->form->m;
             struct gm_run *run = run_of(&problem, boxes[s], 0.1, typed.y);
             assert_int_equal(gm_run_advance(run, 5), GM_OK);
-            const double law = gm_form_defect(&problem, gm_scheme_find_for(boxes[s], &problem), 0.1,
-                                              gm_run_state(run), gm_run_memory(run));
+            const double law = gm_form_residual(
+                (struct gm_law){&problem, gm_scheme_find_for(boxes[s], &problem), 0.1, gm_run_state(run),
+                                gm_run_memory(run), .by_differences = true});
             if (!(rubbed ? law > 1e-6 : law < 1e-9)) {
                 fail_msg("%s%s: %.2e", boxes[s], rubbed ? " with friction" : "", law);
             }
@@ -236,8 +239,8 @@ static double residual_of(const char *text, size_t points, double dt, enum gm_lo
     struct gm_run *run = run_of(&typed.problem, "box", dt, typed.y);
     double *residual = malloc(points * sizeof *residual), largest = 0;
     assert_int_equal(gm_run_until(run, 2), GM_OK);
-    assert_true(gm_form_laws(&typed.problem, gm_scheme_find_for("box", &typed.problem), dt, gm_run_state(run),
-                             law, residual));
+    assert_true(gm_local_laws(&typed.problem, gm_scheme_find_for("box", &typed.problem), dt,
+                              gm_run_state(run), law, residual));
     for (size_t i = 0; i < points; i++) {
         largest = fmax(largest, fabs(residual[i]));
     }

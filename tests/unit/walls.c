@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/user/potential.h"
 #include "core/model/equations.h"
 #include "core/ode/user/evolution.h"

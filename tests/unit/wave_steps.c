@@ -11,8 +11,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "core/theory/certify.h"

@@ -12,11 +12,9 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
-#include "core/field/families/laws/profile.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"
@@ -268,7 +266,7 @@ static void the_box_solves_the_whole_system(void **unused)
         }
         worst = fmax(worst, largest);
         double told[POINTS], told_largest = 0;
-        assert_true(gm_wave_laws(&problem, run->scheme, dt, gm_run_state(run), GM_LAW_OF_ENERGY, told));
+        assert_true(gm_local_laws(&problem, run->scheme, dt, gm_run_state(run), GM_LAW_OF_ENERGY, told));
         for (size_t i = 0; i < POINTS; i++) {
             told_largest = fmax(told_largest, fabs(told[i]));
         }
@@ -307,14 +305,17 @@ static void expect_law(const struct gm_problem *problem, const char *name, doubl
     assert_non_null(run);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
     const double *state = gm_run_state(run), *memory = gm_run_memory(run);
-    const double residual = gm_form_residual(problem, scheme, dt, state, memory);
-    const double defect = gm_form_defect(problem, scheme, dt, state, memory);
+    const double residual =
+        gm_form_residual((struct gm_law){problem, scheme, dt, state, memory, .by_differences = false});
+    const double defect =
+        gm_form_residual((struct gm_law){problem, scheme, dt, state, memory, .by_differences = true});
     struct gm_family family = *scheme->family;
     struct gm_scheme wrong = *scheme;
     rubbed = scheme->family;
     family.loop = rub;
     wrong.family = &family;
-    const double friction = gm_form_defect(problem, &wrong, dt, state, memory);
+    const double friction =
+        gm_form_residual((struct gm_law){problem, &wrong, dt, state, memory, .by_differences = true});
     if (kept ? !(residual < 1e-11 && defect < 1e-8 && friction > 1e-6)
              : !(residual > 1e-4 && defect > 1e-4)) {
         fail_msg("%s, %s: residual %.2e, by differences %.2e, with friction %.2e", problem->name, name,
@@ -364,7 +365,8 @@ static void the_form_is_kept_or_not(void **unused)
     expect_law(&nls, "euler-box", 0.02, y, true);
     expect_law(&nls, "euler-box", -0.02, y, true);
     struct gm_run *run = gm_run_open(&nls, gm_scheme_find("split-step2"), &no_settings, 0, 0.02, y);
-    assert_true(isnan(gm_form_residual(&nls, run->scheme, 0.02, y, NULL)));
+    assert_true(
+        isnan(gm_form_residual((struct gm_law){&nls, run->scheme, 0.02, y, NULL, .by_differences = false})));
     gm_run_close(run);
 }
 
@@ -379,8 +381,8 @@ static void many_cells(void **unused)
             struct gm_problem problem;
             struct gm_run *run = breather_run(&problem, names[s], points, 0.1);
             assert_int_equal(gm_run_advance(run, 20), GM_OK);
-            const double residual =
-                gm_form_residual(&problem, run->scheme, 0.1, gm_run_state(run), gm_run_memory(run));
+            const double residual = gm_form_residual((struct gm_law){
+                &problem, run->scheme, 0.1, gm_run_state(run), gm_run_memory(run), .by_differences = false});
             if (!(residual < 1e-10)) {
                 fail_msg("%s, %zu cells: %.2e", names[s], points, residual);
             }
@@ -406,9 +408,17 @@ static void collocation_at_two_points_has_its_order(void **unused)
     }
 }
 
+/* The caller frees it. */
+static double *profile_of(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *u)
+{
+    double *values = malloc(2 * problem->line.points * sizeof *values);
+    assert_true(gm_field_profile(problem, scheme, u, values));
+    return values;
+}
+
 static double box_square(const struct gm_problem *problem, const double *y)
 {
-    double *profile = gm_field_profile(problem, gm_scheme_find("box"), y);
+    double *profile = profile_of(problem, gm_scheme_find("box"), y);
     assert_non_null(profile);
     const double square = kdv_square(problem, profile);
     free(profile);
@@ -417,8 +427,8 @@ static double box_square(const struct gm_problem *problem, const double *y)
 
 static double box_energy(const struct gm_problem *problem, const double *y)
 {
-    double *re = gm_field_profile(problem, gm_scheme_find("box"), y);
-    double *im = gm_field_profile(problem, gm_scheme_find("box"), y + problem->line.points);
+    double *re = profile_of(problem, gm_scheme_find("box"), y);
+    double *im = profile_of(problem, gm_scheme_find("box"), y + problem->line.points);
     assert_true(re && im);
     const size_t points = problem->line.points;
     double energy = 0;
@@ -448,7 +458,7 @@ static void slopes_are_those_of_the_scheme(void **unused)
         u[i] = sin(2 * M_PI * (double)i / POINTS);
     }
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
-        double *profile = gm_field_profile(&problem, gm_scheme_find(rows[i].scheme), u);
+        double *profile = profile_of(&problem, gm_scheme_find(rows[i].scheme), u);
         assert_non_null(profile);
         assert_true(fabs(profile[0] - rows[i].value) < 1e-6);
         assert_true(fabs(profile[POINTS] - rows[i].slope) < 1e-5);

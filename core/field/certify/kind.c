@@ -9,12 +9,12 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/frames.h"
-#include "core/field/families/laws/form.h"
-#include "core/field/families/laws/wave.h"
+#include "core/field/families/laws/laws.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/field/user/equation.h"
 #include "core/field/user/form.h"
 #include "core/field/user/potential.h"
@@ -174,7 +174,8 @@ static void note_form(struct gm_certificate *certificate, struct subject *subjec
     gm_run_advance(subject->run, 25);
     const double *const now = gm_run_state(subject->run);
     const double defect =
-        gm_form_defect(&subject->problem, subject->scheme, subject->dt, now, gm_run_memory(subject->run));
+        gm_form_residual((struct gm_law){&subject->problem, subject->scheme, subject->dt, now,
+                                         gm_run_memory(subject->run), .by_differences = true});
     if (!isnan(defect)) {
         gm_certificate_claim(certificate, GM_MULTISYMPLECTIC)->tolerance = 1e-8;
         note(certificate, GM_MULTISYMPLECTIC, defect, round_off(subject, now) * slopes_of(subject) / over,
@@ -393,26 +394,17 @@ static double nls_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-/* The values at node i that the original frame sees of a run. Nodes that rest in the frame have travelled over whole nodes
-   of the original one. */
-static double seen_kdv(const struct gm_run *run, size_t i)
+/* The value at node i that the original frame sees of a run. Nodes that rest in the frame have travelled over whole nodes of
+   the original one. */
+static double seen(const struct gm_run *run, size_t i)
 {
-    const struct gm_kdv *kdv = gm_kdv_of(run->problem);
+    const struct gm_framed *framed = gm_framed_of(run->problem);
     const struct gm_grid1 *line = &run->problem->line;
-    const long travelled =
-        gm_frame_rests(&kdv->framed, run->scheme) ? lround(kdv->framed.lambda * run->t / line->dx) : 0;
-    return gm_run_state(run)[(i + (size_t)travelled) % line->points] - kdv->framed.lambda / kdv->eta;
-}
-
-static double seen_burgers(const struct gm_run *run, size_t i)
-{
-    return gm_run_state(run)[i] - gm_framed_of(run->problem)->lambda;
-}
-
-static double seen_heat(const struct gm_run *run, size_t i)
-{
-    const double x = gm_grid1_node(&run->problem->line, i);
-    return gm_run_state(run)[i] / gm_heat_factor(gm_framed_of(run->problem), false, x, run->t);
+    const bool rests = gm_frame_rests(framed, run->scheme);
+    const long travelled = rests ? lround(framed->lambda * run->t / line->dx) : 0;
+    return gm_moving_frames_of(run->problem)
+        ->seen(framed, rests, gm_grid1_node(line, i), run->t,
+               gm_run_state(run)[(i + (size_t)travelled) % line->points]);
 }
 
 static bool is_above_second_order(const struct gm_scheme *scheme)
@@ -448,7 +440,6 @@ struct equation {
                   alone */
     enum gm_claim claim;
     double (*kept)(const struct gm_problem *problem, const double *y);
-    double (*seen)(const struct gm_run *run, size_t i); /* NULL: there are no frames of reference */
 };
 
 #define SINE_GORDON                                                                                          \
@@ -456,8 +447,7 @@ struct equation {
     .claim = GM_KEEPS_ENERGY, .kept = gm_wave_energy
 #define KDV                                                                                                  \
     .file = "kdv", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
-    .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR,                  \
-    .kept = kdv_mass, .seen = seen_kdv
+    .line = {.points = 200, .dx = 0.2, .first = -20}, .until = 1, .claim = GM_KEEPS_LINEAR, .kept = kdv_mass
 #define NLS                                                                                                  \
     .file = "nls", .given = {{"initial", "soliton"}, {"position", "0"}},                                     \
     .line = {.points = 300, .dx = 40.0 / 300, .first = -20}, .until = 1, .claim = GM_KEEPS_QUADRATIC,        \
@@ -486,13 +476,8 @@ static const struct equation equations[] = {
      .given = {{"viscosity", "0.1"}, {"a", "-0.3"}, {"d", "0.2"}},
      .line = {.points = 81, .dx = 0.05, .first = -2},
      .dt = 0.002,
-     .until = 0.2,
-     .seen = seen_burgers},
-    {.file = "heat",
-     .line = {.points = 81, .dx = 0.1, .first = -4},
-     .dt = 0.002,
-     .until = 0.2,
-     .seen = seen_heat},
+     .until = 0.2},
+    {.file = "heat", .line = {.points = 81, .dx = 0.1, .first = -4}, .dt = 0.002, .until = 0.2},
 };
 
 /* The problem of a file and its start. */
@@ -565,7 +550,8 @@ static bool open_equation(struct opened *opened, const struct equation *equation
     } else {
         gm_user_line_start(problem->parameters, &line, opened->start);
     }
-    if (equation->seen && gm_field_of(problem)->equation != GM_NEEDS_KDV) {
+    const struct gm_moving_frames *frames = gm_moving_frames_of(problem);
+    if (frames && frames != &gm_frames_of_kdv) {
         ((struct gm_framed *)problem->parameters)->frame = GM_FRAME_MOVING;
     }
     return true;
@@ -605,8 +591,7 @@ static double frame_defect(const struct equation *equation, const struct subject
             gm_run_until(moving.run, equation->until) == GM_OK) {
             largest = 0;
             for (size_t i = 0; i < subject->problem.line.points; i++) {
-                largest =
-                    gm_larger(fabs(equation->seen(moving.run, i) - equation->seen(rest.run, i)), largest);
+                largest = gm_larger(fabs(seen(moving.run, i) - seen(rest.run, i)), largest);
             }
             largest =
                 fmax(largest, frames->defect(&subject->problem, subject->scheme, subject->dt, &symmetry, y));
@@ -640,7 +625,7 @@ static void measure_claims(struct gm_certificate *certificate, const struct equa
         note_form(certificate, subject, y, 1);
     }
     gm_certificate_note_same(certificate, &subject->problem, &no_settings, subject->dt, y);
-    if (equation->seen) {
+    if (gm_moving_frames_of(&subject->problem)) {
         gm_certificate_note(certificate, GM_EQUIVARIANT, frame_defect(equation, subject, y),
                             subject->problem.name);
     }
@@ -700,8 +685,7 @@ static double form_energy(const void *subject, const double *y, const double *me
 /* The reason why steps of this length cannot test a claim, or NULL. */
 static const char *no_steps(struct subject *subject, const double *y)
 {
-    const struct gm_step_limit *limit = subject->scheme->limit;
-    if (limit && fabs(subject->dt) > limit->longest(&subject->problem, y)) {
+    if (fabs(subject->dt) > gm_wave_longest_step(&subject->problem, subject->scheme, y)) {
         return "dt is beyond the longest step of linear theory (longest_step): take a shorter one";
     }
     bool good = begin_run(subject, y);

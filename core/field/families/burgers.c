@@ -23,41 +23,32 @@
    There D0 u + a4 = (a + 1/2) h D2 u: what is left of the convection diffuses by (u - sigma/k)(a + 1/2) h,
    which only a = -1/2, the frame above, turns into second order in h; d then has no effect.
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
-#include "core/field/families/frames.h"
+#include "core/field/families/between_ends.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
-#include "core/field/families/two_step.h"
+#include "core/field/families/family.h"
 #include "core/linear/settled.h"
 
-/* One step of length k on nodes h apart, each displaced by sigma. u and out have `points` entries; out[0] and
-   out[points - 1] hold the boundary values of the new level already. */
-struct step {
-    const struct gm_burgers *burgers;
-    size_t points;
-    double h, k, sigma;
-    const double *u;
-    double *out;
-    double *constant, *above, *right; /* [points], of implicit schemes */
+const struct gm_problem gm_problem_burgers = {
+    .name = "Burgers",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.equation = GM_NEEDS_BURGERS},
+    .m = 1,
+    .bound = 1e3,
 };
 
-struct method {
-    enum gm_status (*make)(const struct step *step, struct gm_progress *progress);
-    bool implicit;
-    bool family; /* the frame depends on a and d */
-};
+static const struct gm_burgers *burgers_of(const struct gm_ends_step *step)
+{
+    return (const struct gm_burgers *)step->framed;
+}
 
-GM_CLONES static enum gm_status ftcs(const struct step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, h = step->h, viscosity = step->burgers->framed.viscosity;
+    const double k = step->k, h = step->h, viscosity = step->framed->viscosity;
     const double convection = k / (2 * h), diffusion = viscosity * k / (h * h);
     progress->evaluations++;
-    if (step->burgers->printed) {
+    if (burgers_of(step)->printed) {
         /* the order of the formula matters: at h/nu > 2 rounding errors grow */
         for (size_t j = 1; j + 1 < step->points; j++) {
             v[j] = u[j] - k * u[j] * (u[j + 1] - u[j - 1]) / (2 * h) +
@@ -72,12 +63,12 @@ GM_CLONES static enum gm_status ftcs(const struct step *step, struct gm_progress
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff(const struct step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double ratio = step->k / step->h;
-    const double diffusion = step->burgers->framed.viscosity * step->k / (step->h * step->h);
+    const double diffusion = step->framed->viscosity * step->k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
         const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
@@ -88,12 +79,12 @@ GM_CLONES static enum gm_status lax_wendroff(const struct step *step, struct gm_
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_invariant(const struct step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_invariant(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
     const double k = step->k, sigma = step->sigma, over_2h = 1 / (2 * step->h);
-    const double diffusion = step->burgers->framed.viscosity * k / (step->h * step->h);
+    const double diffusion = step->framed->viscosity * k / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
         v[j] = (u[j] + sigma * slope + diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]) / m) / m;
@@ -102,12 +93,12 @@ GM_CLONES static enum gm_status ftcs_invariant(const struct step *step, struct g
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status ftcs_family(const struct step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status ftcs_family(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->burgers->framed.viscosity;
-    const double a = step->burgers->a, d = step->burgers->d;
+    const double k = step->k, sigma = step->sigma, h = step->h, viscosity = step->framed->viscosity;
+    const double a = burgers_of(step)->a, d = burgers_of(step)->d;
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double bend = u[j + 1] - 2 * u[j] + u[j - 1];
         const double a4 = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / h, m = 1 - k * a4;
@@ -118,12 +109,12 @@ GM_CLONES static enum gm_status ftcs_family(const struct step *step, struct gm_p
     return GM_OK;
 }
 
-GM_CLONES static enum gm_status lax_wendroff_invariant(const struct step *step, struct gm_progress *progress)
+GM_CLONES static enum gm_status lax_wendroff_invariant(const struct gm_ends_step *step,
+                                                       struct gm_progress *progress)
 {
     const double *restrict u = step->u;
     double *restrict v = step->out;
-    const double k = step->k, sigma = step->sigma, a5 = -sigma / k,
-                 viscosity = step->burgers->framed.viscosity;
+    const double k = step->k, sigma = step->sigma, a5 = -sigma / k, viscosity = step->framed->viscosity;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
     for (size_t j = 1; j + 1 < step->points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), over_m = 1 / (1 + k * slope);
@@ -141,13 +132,13 @@ struct row {
 };
 
 /* Crank-Nicolson; the constant `old` is its part at the old level. */
-static struct row row_standard(const struct step *step, const double *v, size_t j, double old)
+static struct row row_standard(const struct gm_ends_step *step, const double *v, size_t j, double old)
 {
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->framed.viscosity / 2;
+    const double nu = step->framed->viscosity / 2;
     const double second = over_square * (v[j + 1] - 2 * v[j] + v[j - 1]);
     struct row row = {-nu * over_square, 1 / step->k + 2 * nu * over_square, -nu * over_square, 0};
-    if (step->burgers->printed) {
+    if (burgers_of(step)->printed) {
         const double slope = over_2h * (v[j + 1] - v[j - 1]);
         row.residual = v[j] / step->k + v[j] * slope / 2 - nu * second + old;
         row.below -= v[j] * over_2h / 2;
@@ -162,23 +153,23 @@ static struct row row_standard(const struct step *step, const double *v, size_t 
     return row;
 }
 
-static double old_standard(const struct step *step, size_t j)
+static double old_standard(const struct gm_ends_step *step, size_t j)
 {
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double convection = step->burgers->printed
+    const double convection = burgers_of(step)->printed
                                   ? u[j] * over_2h * (u[j + 1] - u[j - 1])
                                   : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
     return -u[j] / step->k + convection / 2 -
-           step->burgers->framed.viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
+           step->framed->viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
 }
 
-static struct row row_invariant(const struct step *step, const double *v, size_t j, double old)
+static struct row row_invariant(const struct gm_ends_step *step, const double *v, size_t j, double old)
 {
     (void)old;
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double nu = step->burgers->framed.viscosity / 2;
+    const double nu = step->framed->viscosity / 2;
     const double a4 = -over_2h * (u[j + 1] - u[j - 1]), m = 1 - a4 * step->k;
     const double shift = step->sigma * a4, a5 = -step->sigma / step->k;
     const double value = m * v[j] + shift + a5, slope = m * (m * over_2h * (v[j + 1] - v[j - 1]) + a4);
@@ -193,15 +184,15 @@ static struct row row_invariant(const struct step *step, const double *v, size_t
     };
 }
 
-static double nothing(const struct step *step, size_t j)
+static double nothing(const struct gm_ends_step *step, size_t j)
 {
     return (void)step, (void)j, 0;
 }
 
 /* Newton's method; the tridiagonal systems by elimination. */
-static enum gm_status solve(const struct step *step, struct gm_progress *progress,
-                            double (*old)(const struct step *, size_t),
-                            struct row (*row_at)(const struct step *, const double *, size_t, double))
+static enum gm_status solve(const struct gm_ends_step *step, struct gm_progress *progress,
+                            double (*old)(const struct gm_ends_step *, size_t),
+                            struct row (*row_at)(const struct gm_ends_step *, const double *, size_t, double))
 {
     enum { MOST = 60 };
     const size_t points = step->points;
@@ -239,98 +230,14 @@ static enum gm_status solve(const struct step *step, struct gm_progress *progres
     return GM_NO_CONVERGENCE;
 }
 
-static enum gm_status crank_nicolson(const struct step *step, struct gm_progress *progress)
+static enum gm_status crank_nicolson(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     return solve(step, progress, old_standard, row_standard);
 }
 
-static enum gm_status crank_nicolson_invariant(const struct step *step, struct gm_progress *progress)
+static enum gm_status crank_nicolson_invariant(const struct gm_ends_step *step, struct gm_progress *progress)
 {
     return solve(step, progress, nothing, row_invariant);
-}
-
-GM_CLONES static bool within(const double *u, size_t points, double lambda, double limit)
-{
-    long outside = 0;
-    for (size_t j = 0; j < points; j++) {
-        outside += !(fabs(u[j] - lambda) <= limit);
-    }
-    return outside == 0;
-}
-
-/* A level and its other half, and what its ends hold after the next steps. */
-struct run {
-    double **level;
-    double lambda, speed, shift; /* of the frame and of its nodes; what the exact values are larger by */
-    struct gm_frame_ends ends;
-};
-
-/* Makes step k of a level to its other half, with the exact values at both ends. */
-static enum gm_status make_step(const struct gm_task *task, struct run *run, int64_t k,
-                                struct gm_progress *progress)
-{
-    const struct gm_two_step_work *work = task->workspace;
-    const struct method *method = task->scheme->coefficients;
-    const struct gm_grid1 *grid = &task->problem->line;
-    double **level = run->level;
-    const struct step step = {
-        .burgers = gm_burgers_of(task->problem),
-        .points = grid->points,
-        .h = grid->dx,
-        .k = task->dt,
-        .sigma = run->speed * task->dt,
-        .u = level[0],
-        .out = level[1],
-        .constant = work->right,
-        .above = work->guess,
-        .right = work->cells,
-    };
-    gm_frame_ends_set(&run->ends, task, k, level[1]);
-    level[1][0] -= run->shift;
-    level[1][grid->points - 1] -= run->shift;
-    enum gm_status status = method->make(&step, progress);
-    if (status == GM_OK && !within(level[1], grid->points, run->lambda, task->limit)) {
-        status = GM_BLOW_UP;
-    }
-    if (status == GM_OK) {
-        double *past = level[0];
-        level[0] = level[1];
-        level[1] = past;
-    }
-    return status;
-}
-
-static struct gm_progress advance(const struct gm_task *task)
-{
-    struct gm_two_step_work *work = task->workspace;
-    const struct gm_framed *framed = gm_framed_of(task->problem);
-    const size_t points = work->points, size = points * sizeof(double);
-    const double lambda = framed->lambda, speed = gm_frame_rests(framed, task->scheme) ? 0 : lambda;
-    struct run run = {.level = work->level, .lambda = lambda, .speed = speed, .ends.speed = speed};
-    /* its nodes are those that move along */
-    struct run companion = {.level = work->rate, .shift = lambda, .ends.speed = lambda};
-    const bool has_companion = lambda != 0;
-    bool accompanied = has_companion && task->y[2 * points] != 0;
-    struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
-    memcpy(work->level[0], task->y, size);
-    if (has_companion) {
-        memcpy(companion.level[0], task->y + points, size);
-    }
-    for (int64_t k = 0; k < task->steps; k++) {
-        progress.status = make_step(task, &run, k, &progress);
-        if (progress.status != GM_OK) {
-            return progress;
-        }
-        /* a companion that fails stands still: its failure is not this run's */
-        accompanied = accompanied && make_step(task, &companion, k, &uncounted) == GM_OK;
-        progress.done++;
-    }
-    memcpy(task->out, work->level[0], size);
-    if (has_companion) {
-        memcpy(task->out + points, companion.level[0], size);
-        task->out[2 * points] = accompanied;
-    }
-    return progress;
 }
 
 /* (t, x, u) -> (t/m, (x + b t)/m, m u + p x + b),   m = 1 - p t (eq. 98: a4 = p, a5 = b)
@@ -347,17 +254,12 @@ static struct gm_event carry(const struct gm_framed *framed, const struct gm_poi
     };
 }
 
-static bool is_of_family(const struct gm_scheme *scheme)
-{
-    return ((const struct method *)scheme->coefficients)->family;
-}
-
 /* Schemes without frames have one too. The node becomes 0 and, with a = -1/2, both neighbours the same. */
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
                  size_t j, struct gm_point_symmetry *frame)
 {
     const struct gm_burgers *burgers = gm_burgers_of(problem);
-    const bool family = is_of_family(scheme);
+    const bool family = gm_ends_are_special(scheme);
     const double a = family ? burgers->a : -0.5, d = family ? burgers->d : 0;
     *frame = (struct gm_point_symmetry){
         .boost = d * (u[j + 1] - 2 * u[j] + u[j - 1]) - u[j],
@@ -373,69 +275,40 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
 {
     (void)unused;
     static const double u[3] = {0.4, 0.3, 0.15};
-    const struct method *method = scheme->coefficients;
-    const double x = 0.3, h = problem->line.dx;
-    const struct gm_framed *framed = gm_framed_of(problem);
-    struct gm_progress progress = {.status = GM_OK};
-    double before[3], plain[3] = {0}, carried[3] = {0};
-    if (method->implicit) {
-        return NAN;
-    }
-    for (int j = 0; j < 3; j++) {
-        before[j] = carry(framed, symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
-    }
-    struct step step = {.burgers = gm_burgers_of(problem), .points = 3, .h = h, .k = k, .u = u, .out = plain};
-    method->make(&step, &progress);
-    const struct gm_event arrival = carry(framed, symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
-    step.h = symmetry->scale * h;
-    step.k = arrival.t;
-    step.sigma = arrival.x - symmetry->scale * x;
-    step.u = before;
-    step.out = carried;
-    method->make(&step, &progress);
-    return fabs(carried[1] - arrival.u);
+    const struct gm_ends_method *method = scheme->coefficients;
+    const struct gm_ends_step step = {
+        .framed = gm_framed_of(problem), .points = 3, .h = problem->line.dx, .k = k, .u = u};
+    double arrival;
+    return method->implicit ? NAN
+                            : fabs(gm_ends_carried(method, carry, &step, symmetry, 0.3, &arrival) - arrival);
 }
 
-const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, is_of_family};
+static double seen(const struct gm_framed *framed, bool fixed, double x, double t, double u)
+{
+    return (void)fixed, (void)x, (void)t, u - framed->lambda;
+}
+
+const struct gm_moving_frames gm_frames_of_burgers = {carry, find, defect, seen, gm_ends_are_special};
 
 #define OF_BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("ftcs", "FTCS", 1, 0, "v = u − k u D₀u + kν D₂u,  or D₀(u²/2) for u D₀u",
-                    "forward in time, centred in space; Razafindralandy et al. (2018), eq. 97", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = ftcs}),
-    GM_FIELD_SCHEME("lax-wendroff", "Lax-Wendroff", 1, 0,
-                    "v = u − k D₀f + k²/2h² [A₊(fⱼ₊₁ − fⱼ) − A₋(fⱼ − fⱼ₋₁)] + kν D₂u,  f = u²/2",
-                    "P. Lax & B. Wendroff, Comm. Pure Appl. Math. 13 (1960) 217", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = lax_wendroff}),
-    GM_FIELD_SCHEME("crank-nicolson", "Crank-Nicolson", 2, 0,
-                    "(v − u)/k + (v D₀v + u D₀u)/2 = ν/2 (D₂u + D₂v)",
-                    "J. Crank & P. Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = crank_nicolson, .implicit = true}),
-    GM_FIELD_SCHEME("ftcs-invariant", "FTCS, invariant", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + kν D₂u/m]/m,  a₄ = −D₀u,  m = 1 + k D₀u,  σ the node's displacement",
-                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-                    OF_BURGERS, .coefficients = &(const struct method){.make = ftcs_invariant}),
-    GM_FIELD_SCHEME("lax-wendroff-invariant", "Lax-Wendroff, invariant", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + k/m (ν + ka²/2m) D₂u]/m,  a = (uⱼ₊₁ + 2uⱼ + uⱼ₋₁)/4 − σ/k",
-                    "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
-                    OF_BURGERS, .coefficients = &(const struct method){.make = lax_wendroff_invariant}),
-    GM_FIELD_SCHEME(
-        "crank-nicolson-invariant", "Crank-Nicolson, invariant", 2, GM_EQUIVARIANT,
-        "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
-        "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)", OF_BURGERS,
-        .coefficients = &(const struct method){.make = crank_nicolson_invariant, .implicit = true}),
-    GM_FIELD_SCHEME("ftcs-family", "FTCS, family", 1, GM_EQUIVARIANT,
-                    "v = [u − σa₄ + k/m (ν D₂u − (u + a₅)(D₀u + a₄))]/m,  m = 1 − k a₄\n"
-                    "a₄ = [a uⱼ₊₁ − (1 + 2a) uⱼ + (1 + a) uⱼ₋₁]/h,  a₅ = d h² D₂u − u",
-                    "Razafindralandy et al. (2018), eqs. 111 and 117 to 119", OF_BURGERS,
-                    .coefficients = &(const struct method){.make = ftcs_family, .family = true}),
+    {GM_TEXTS_ftcs, OF_BURGERS, .coefficients = &(const struct gm_ends_method){.make = ftcs}},
+    {GM_TEXTS_lax_wendroff, OF_BURGERS, .coefficients = &(const struct gm_ends_method){.make = lax_wendroff}},
+    {GM_TEXTS_crank_nicolson, OF_BURGERS,
+     .coefficients = &(const struct gm_ends_method){.make = crank_nicolson, .implicit = true}},
+    {GM_TEXTS_ftcs_invariant, OF_BURGERS,
+     .coefficients = &(const struct gm_ends_method){.make = ftcs_invariant}},
+    {GM_TEXTS_lax_wendroff_invariant, OF_BURGERS,
+     .coefficients = &(const struct gm_ends_method){.make = lax_wendroff_invariant}},
+    {GM_TEXTS_crank_nicolson_invariant, OF_BURGERS,
+     .coefficients = &(const struct gm_ends_method){.make = crank_nicolson_invariant, .implicit = true}},
+    {GM_TEXTS_ftcs_family, OF_BURGERS,
+     .coefficients = &(const struct gm_ends_method){.make = ftcs_family, .special = true}},
 };
 
 const struct gm_family gm_family_burgers = {
     .title = "Burgers, standard and invariantised",
     GM_FIELD_FAMILY,
-    .loop = advance,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
+    GM_ENDS_LOOP,
 };

@@ -2,7 +2,7 @@
 #ifndef GM_CORE_FIELD_FAMILIES_FRAMES_H
 #define GM_CORE_FIELD_FAMILIES_FRAMES_H
 
-#include "core/field/problems/moving_frames.h"
+#include "core/field/problems/problems.h"
 
 /* A point of space and time with the value of the field there: what a symmetry moves. */
 struct gm_event {
@@ -27,6 +27,9 @@ struct gm_moving_frames {
        it has no meaning for the scheme, or if a step fails. */
     double (*defect)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                      const struct gm_point_symmetry *symmetry, const double *y);
+    /* Returns what the original frame sees of the value u at time t, at the node that was at x at the start and rests there
+       (fixed) or moves along. */
+    double (*seen)(const struct gm_framed *framed, bool fixed, double x, double t, double u);
     /* Returns true if a scheme's frames are of another kind than the usual one: of Burgers' equation, those of a and d;
        of heat, with projections; of Korteweg and de Vries', those of evolution and projection. */
     bool (*are_special)(const struct gm_scheme *scheme);
@@ -47,5 +50,12 @@ static inline const struct gm_moving_frames *gm_moving_frames_of(const struct gm
         return NULL;
     }
 }
+
+/* Returns the exact value at time t at the node that starts at x and moves with this speed. */
+double gm_frame_exact(const struct gm_framed *framed, double speed, double x, double t);
+
+/* The heat equation: the divisor of the value at time t, in the new frame, at the node that was at x at the start and
+   rests there (fixed) or moves, which gives the value in the original frame. */
+double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t);
 
 #endif

@@ -21,14 +21,9 @@
    Both preserve scalings, as does every scheme whose terms are all of one degree in h^-1, k^-1/3 and u^1/2.
    After A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose schemes are of first
    order in time, and explicit; the frames as those of Razafindralandy et al. (2018), eqs. 86 to 91. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/frames.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/ring/ring.h"
 #include "core/linear/settled.h"
 
@@ -362,24 +357,20 @@ static double defect(const struct gm_problem *problem, const struct gm_scheme *s
     return largest;
 }
 
-const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, solves};
+static double seen(const struct gm_framed *framed, bool fixed, double x, double t, double u)
+{
+    return (void)fixed, (void)x, (void)t, u - framed->lambda / ((const struct gm_kdv *)framed)->eta;
+}
+
+const struct gm_moving_frames gm_frames_of_kdv = {carry, find, defect, seen, solves};
 
 #define OF_KDV_MOVING_FRAMES .family = &gm_family_kdv_moving_frames, .needs = GM_NEEDS_KDV
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("zabusky-kruskal-invariant", "Zabusky-Kruskal, invariant", 2,
-                    GM_EQUIVARIANT | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "v = uⁿ⁻¹ + 2k [(σ/k − η Au) D₀u − μ D₃u],  Au = (uⱼ₋₁ + uⱼ + uⱼ₊₁)/3",
-                    "Zabusky & Kruskal (1965) in the frame of Razafindralandy et al. (2018), eq. 91; "
-                    "A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201",
-                    OF_KDV_MOVING_FRAMES, .coefficients = &(const struct row){.make = leapfrog}),
-    GM_FIELD_SCHEME("evolution-projection", "Evolution-projection", 2, GM_EQUIVARIANT,
-                    "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
-                    "P: the polynomial through six nodes",
-                    "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
-                    "is explicit",
-                    OF_KDV_MOVING_FRAMES,
-                    .coefficients = &(const struct row){.make = evolve_and_project, .solves = true}),
+    {GM_TEXTS_zabusky_kruskal_invariant, OF_KDV_MOVING_FRAMES,
+     .coefficients = &(const struct row){.make = leapfrog}},
+    {GM_TEXTS_evolution_projection, OF_KDV_MOVING_FRAMES,
+     .coefficients = &(const struct row){.make = evolve_and_project, .solves = true}},
 };
 
 const struct gm_family gm_family_kdv_moving_frames = {

@@ -35,11 +35,11 @@ void gm_two_step_close(void *workspace)
     free(work);
 }
 
-GM_CLONES static bool within(const double *level, size_t points, double limit)
+GM_CLONES bool gm_level_is_within(const double *level, size_t points, double from, double limit)
 {
     long outside = 0;
     for (size_t i = 0; i < points; i++) {
-        outside += !(fabs(level[i]) <= limit);
+        outside += !(fabs(level[i] - from) <= limit);
     }
     return outside == 0;
 }
@@ -57,16 +57,6 @@ void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *probl
         const double velocity = (other[i] - now[i]) / gap - gap / 2 * acceleration;
         next[i] = now[i] + dt * (velocity + dt / 2 * acceleration);
     }
-}
-
-double gm_wave_longest(const struct gm_problem *problem, const double *y, double square, double stiffness)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    double most = 0;
-    for (size_t i = 0; i < grid->points; i++) {
-        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
-    }
-    return sqrt(square / (stiffness / (grid->dx * grid->dx) + most));
 }
 
 static void subtract(double *change, const double *level, const double *before, size_t points)
@@ -120,7 +110,7 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
                 subtract(work->change, next, work->level[1], points);
             }
         }
-        if (progress.status == GM_OK && !within(next, points, task->limit)) {
+        if (progress.status == GM_OK && !gm_level_is_within(next, points, 0, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
         if (progress.status != GM_OK) {

@@ -29,9 +29,6 @@ typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_pr
                                double gap);
 gm_two_step_start gm_wave_start;
 
-/* The longest step dt of a wave for which (w dt)^2 <= square, w^2 = stiffness/dx^2 + V'' wherever u is. */
-double gm_wave_longest(const struct gm_problem *problem, const double *y, double square, double stiffness);
-
 /* The discrete conservation laws of a scheme: laws of nodes, of nodes at twice the distance in time and
    space, of cells, or others. */
 enum gm_wave_law { GM_LAW_NODES, GM_LAW_CENTRED, GM_LAW_CELLS, GM_LAW_NONE };
@@ -45,6 +42,9 @@ struct gm_two_step_row {
     bool keeps_change; /* work->change is the scheme's memory */
     bool keeps_rates; /* work->rate of the present and the past level is, and steps and starts set the next */
 };
+
+/* Returns true if no value is farther from `from` than this. */
+bool gm_level_is_within(const double *level, size_t points, double from, double limit);
 
 /* Advances a wave problem by a scheme of two steps. */
 struct gm_progress gm_two_step_advance(const struct gm_task *task);

@@ -7,7 +7,7 @@
        S = v^2/(2 mu) - u w + eta u^3/6
    U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes second. */
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};

@@ -11,7 +11,7 @@
 #include <math.h>
 
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};

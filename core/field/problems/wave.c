@@ -7,7 +7,7 @@
    T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018). */
 #include <math.h>
 
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/sine.h"
 
 static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 /* The parameters of every equation. */
 union equation {

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/field/problems/wave.h"
+#include "core/field/problems/problems.h"
 #include "core/tape.h"
 
 enum { ROOM = 128 }; /* slopes that a tape computes together */

@@ -123,11 +123,11 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
 enum family { IMPLICIT, SPLITTING, CORRECTED, COMPOSITIONS, TEXTS, FAMILIES };
 static const char *const families[FAMILIES] = {"implicit", "splitting", "corrected", "compositions", "texts"};
 
-/* The name of a scheme as an identifier. */
+/* The name of a scheme, and words behind it, as an identifier. */
 static char *identifier_of(char identifier[64], const char *name, size_t length)
 {
     snprintf(identifier, 64, "%.*s", (int)length, name);
-    for (char *at = identifier; (at = strchr(at, '-'));) {
+    for (char *at = identifier; (at = strpbrk(at, "- "));) {
         *at = '_';
     }
     return identifier;
@@ -213,8 +213,9 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             return false;
         }
         if (word == SCHEME) {
+            const char *further = memchr(value, ' ', size);
             fprintf(out, "\n#define GM_TEXTS_%s .name = \"%.*s\"", identifier_of(identifier, value, size),
-                    (int)size, value);
+                    (int)(further ? further - value : (ptrdiff_t)size), value);
         } else if (word == ORDER) {
             fprintf(out, ", .order = %.*s", (int)size, value);
         } else if (word == CLAIMS) {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The boxes of waves, u_tt - u_xx + V'(u) = 0, by the collocation of any form (any_form.c). */
-#include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 
 static double wave_density(const struct gm_problem *problem, const double *s, const double *slope)
 {
@@ -15,13 +14,9 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
     return (void)y, gm_any_form_integral(problem, scheme, remembered, wave_density);
 }
 
-#define OF_GAUSS .family = &gm_family_gauss, .needs = GM_NEEDS_WAVE
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("gauss-box3", "Gauss box, r = s = 2", 3, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-                    "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
-                    "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", OF_GAUSS,
-                    .coefficients = &gm_collocation_gauss4),
+    {GM_TEXTS_gauss_box3_of_waves, .family = &gm_family_gauss, .needs = GM_NEEDS_WAVE,
+     .coefficients = &gm_collocation_gauss4},
 };
 
 const struct gm_family gm_family_gauss = {
@@ -30,8 +25,8 @@ const struct gm_family gm_family_gauss = {
     .loop = gm_any_form_advance,
     .memory = gm_any_form_memory,
     .start = gm_any_form_start,
-    .workspace_open = gm_collocation_open,
-    .workspace_close = gm_collocation_close,
+    .workspace_open = gm_any_form_open,
+    .workspace_close = gm_any_form_close,
     .form = gm_any_form_law,
     .wave_energy = wave_energy,
 };

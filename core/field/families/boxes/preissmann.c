@@ -15,13 +15,8 @@
        A_x' (1/dt^2 + V''/4) A_x + D_x' D_x/4,
    is the Hessian of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least
    one beyond. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
 #include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
 #include "core/linear/settled.h"
@@ -199,14 +194,9 @@ static double form(const struct gm_law *law)
     return is_wave(law->problem) ? gm_wave_form(law) : gm_dispersive_form(law);
 }
 
-#define OF_PREISSMANN .family = &gm_family_preissmann, .needs = GM_NEEDS_FORM, .in_cells = true
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("box", "box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
-                    "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "
-                    "Razafindralandy et al. (2018)",
-                    OF_PREISSMANN, .coefficients = &row),
+    {GM_TEXTS_box_of_a_field, .family = &gm_family_preissmann, .needs = GM_NEEDS_FORM, .in_cells = true,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_preissmann = {

@@ -10,15 +10,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task);
 void *gm_dispersive_open(const struct gm_problem *problem);
 double gm_dispersive_form(const struct gm_law *law);
 
-/* gm_family.form of the schemes of nodes. */
-double gm_nodes_form(const struct gm_law *law);
-
-/* Measures the residual of a local law over the next step of the box in every cell,
-       energy     [V(b) - V(a) - (b - a) V'((a + b)/2)] / dt    from a = A_x f^n to b = A_x f^{n+1}
-       momentum   the same over dx                              from a = A_t f_i to b = A_t f_{i+1}
-   with V' = g, of second order, and round-off for mass or charge. `scheme` is the box. False when out
-   of memory or if the step fails. */
-bool gm_dispersive_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                        const double *y, enum gm_local_law law, double *residual);
+/* Measures the residual of the local law of mass or charge over the next step of the box in every cell. */
+void gm_dispersive_content(const struct gm_law *law, void *residual);
 
 #endif

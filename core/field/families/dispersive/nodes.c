@@ -1,24 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The multisymplectic schemes of nodes for equations of first order in time, all but the field eliminated
-   (D_+, D_-, D_0 forward, backward and centred differences in x, d2 = D_+ D_-).
-
-   Korteweg-de Vries, f = mu d2 u + eta u^2/2, centred f = mu D_0^2 u + eta u^2/2:
+/* The multisymplectic schemes of nodes for the Korteweg-de Vries equation, all but the field eliminated
+   (D_+, D_-, D_0 forward, backward and centred differences in x, d2 = D_+ D_-). With f = mu d2 u + eta u^2/2, centred f = mu D_0^2 u + eta u^2/2:
        Euler box   (u_i^{n+1} - u_i^n + u_{i+1}^n - u_{i+1}^{n-1}) / (2 dt) + D_+ f_i = 0
                    where dt < 0 the triangles the other way round, and with them x;
                    stable for dt < dx^3/(4 mu)
        midpoint    (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0
                    stable for dt < dx^3/mu
-   Nonlinear Schroedinger: schroedinger_nodes.c has its Euler box, and here is the law of both.
    B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). */
-#include <math.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/dispersive/box.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 static size_t shifted(size_t i, long by, size_t points)
 {
@@ -94,49 +86,28 @@ static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *pr
     }
 }
 
-/* Schroedinger: a tangent of the solution p^{n-1}, q^n becomes that of p^n, q^{n+1}. */
-static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const double *p_new,
-                              const double *q, double *tangent_p, double *tangent_q)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    const double k = gm_nls_of(problem)->k;
-    for (size_t i = 0; i < grid->points; i++) {
-        const double p = p_new[i];
-        tangent_p[i] = (tangent_p[i] -
-                        dt * (second(tangent_q, i, 1, grid) + k * (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
-                       (1 + 2 * dt * k * q[i] * p);
-    }
-    for (size_t i = 0; i < grid->points; i++) {
-        const double p = p_new[i];
-        tangent_q[i] += dt * (second(tangent_p, i, 1, grid) + k * (3 * p * p + q[i] * q[i]) * tangent_p[i] +
-                              2 * k * q[i] * p * tangent_q[i]);
-    }
-}
-
 static const struct gm_two_step_row kdv_rows[] = {
     {.step = kdv_euler, .start = kdv_start, .law = GM_LAW_NODES},
     {.step = kdv_centred, .start = kdv_start, .law = GM_LAW_CENTRED},
 };
 
-/* The multisymplectic law of the schemes of nodes for equations of first order in time: two tangents are
-   advanced by a step, and what elimination left out follows from the other equations, linearised at the
-   solution m:
-       Korteweg-de Vries   D_- phi = u,   v = mu D_- u,   w = D_t^- phi/2 + D_+ v + eta m u
-       Schroedinger        v = D_- p,   w = D_- q
+/* The multisymplectic law: two tangents are advanced by a step, and what elimination left out follows from the other
+   equations, linearised at the solution m,
+       D_- phi = u,   v = mu D_- u,   w = D_t^- phi/2 + D_+ v + eta m u
    with centred differences for the midpoint scheme. phi of every level is free up to a constant, which its
    differences do not see; the tangents have no mean, so that it is periodic. */
 
-/* A solution, u or Schroedinger's p^{n-1} and q^n. */
+/* A solution. */
 struct base {
     const struct gm_law *law; /* ahead in time */
-    bool kdv, centred;
+    bool centred;
     double *past, *now;
 };
 
-/* A tangent at three levels: u and phi, or of Schroedinger's equation p, p, - and -, q, q. */
+/* A tangent at three levels. */
 struct tangent {
     const struct base *base;
-    double *first[3], *second[3];
+    double *u[3], *phi[3];
 };
 
 /* phi from D u = ..., around the ring, or both rings of every other node. */
@@ -156,10 +127,15 @@ static void integrate(const struct base *base, const double *u, double *phi)
     }
 }
 
-static void advance_kdv(const struct base *base, double phase, double waves, const struct tangent *a)
+/* Tangent 0 or 1, a step ahead. */
+static struct tangent tangent_of(const struct base *base, size_t which)
 {
     const size_t points = base->law->problem->line.points;
-    double *const *u = a->first, *const *phi = a->second;
+    const double waves = 2 + (double)which, phase = 0.3 + 0.4 * (double)which;
+    double *at = gm_arena_take(base->law->arena, 6 * points, sizeof *at);
+    const struct tangent a = {
+        base, {at, at + points, at + 2 * points}, {at + 3 * points, at + 4 * points, at + 5 * points}};
+    double *const *u = a.u, *const *phi = a.phi;
     gm_tangent_start(u[0], points, waves, phase);
     gm_tangent_start(u[1], points, waves, 2 * phase - M_PI / 2);
     if (base->law->by_differences) {
@@ -171,9 +147,10 @@ static void advance_kdv(const struct base *base, double phase, double waves, con
     for (size_t n = 0; n < 3; n++) {
         integrate(base, u[n], phi[n]);
     }
+    return a;
 }
 
-static void complete_kdv(const void *tangent, size_t node, double *levels)
+static void complete(const void *tangent, size_t node, double *levels)
 {
     enum { PHI, U, V, W, DIMENSION };
     const struct tangent *a = tangent;
@@ -182,56 +159,19 @@ static void complete_kdv(const void *tangent, size_t node, double *levels)
     const bool centred = a->base->centred;
     const size_t points = problem->line.points, r = (node + 1) % points, l = (node + points - 1) % points;
     const double dx = problem->line.dx, dt = a->base->law->dt;
-    const double *u = a->first[1];
+    const double *u = a->u[1];
     for (size_t n = 0; n < 3; n++) {
-        levels[n * DIMENSION + PHI] = a->second[n][node];
-        levels[n * DIMENSION + U] = a->first[n][node];
+        levels[n * DIMENSION + PHI] = a->phi[n][node];
+        levels[n * DIMENSION + U] = a->u[n][node];
         levels[n * DIMENSION + V] = levels[n * DIMENSION + W] = 0; /* needed at the middle level alone */
     }
-    const double rise = a->second[centred ? 2 : 1][node] - a->second[0][node];
+    const double rise = a->phi[centred ? 2 : 1][node] - a->phi[0][node];
     const size_t l2 = (l + points - 1) % points, r2 = (r + 1) % points;
     const double bend =
         centred ? (u[r2] - 2 * u[node] + u[l2]) / (4 * dx * dx) : (u[r] - 2 * u[node] + u[l]) / (dx * dx);
     levels[DIMENSION + V] = kdv->mu * (centred ? (u[r] - u[l]) / (2 * dx) : (u[node] - u[l]) / dx);
     levels[DIMENSION + W] =
         rise / ((centred ? 4 : 2) * dt) + kdv->mu * bend + kdv->eta * a->base->now[node] * u[node];
-}
-
-static void advance_nls(const struct base *base, double phase, double waves, const struct tangent *a)
-{
-    const size_t points = base->law->problem->line.points, size = points * sizeof(double);
-    double *const *p = a->first, *const *q = a->second;
-    gm_tangent_start(p[0], points, waves, phase);
-    gm_tangent_start(q[1], points, waves, phase + 1);
-    if (base->law->by_differences) {
-        const double *const from[] = {base->past, base->now}, *const along[] = {p[0], q[1]};
-        gm_law_differentiate_levels(base->law, 2, from, along, (double *const[]){p[1], q[2]});
-        return;
-    }
-    double *from = gm_arena_take(base->law->arena, 4 * points, sizeof *from), *made = from + 2 * points;
-    memcpy(from, base->past, size);
-    memcpy(from + points, base->now, size);
-    memcpy(p[1], p[0], size);
-    memcpy(q[2], q[1], size);
-    if (!gm_law_step(base->law, 1, from, NULL, made, NULL)) { /* p^n comes first */
-        gm_arena_leave(base->law->arena);
-    }
-    nls_nodes_tangent(base->law->problem, base->law->dt, made, base->now, p[1], q[2]);
-}
-
-static void complete_nls(const void *tangent, size_t node, double *levels)
-{
-    enum { P, Q, V, W, DIMENSION };
-    const struct tangent *a = tangent;
-    const size_t points = a->base->law->problem->line.points, l = (node + points - 1) % points;
-    const double dx = a->base->law->problem->line.dx, *p = a->first[1], *q = a->second[1];
-    memset(levels, 0, 3 * DIMENSION * sizeof *levels);
-    levels[P] = a->first[0][node];
-    levels[DIMENSION + P] = p[node];
-    levels[DIMENSION + Q] = q[node];
-    levels[DIMENSION + V] = (p[node] - p[l]) / dx;
-    levels[DIMENSION + W] = (q[node] - q[l]) / dx;
-    levels[2 * DIMENSION + Q] = a->second[2][node];
 }
 
 /* Backwards in time the schemes are those forwards in the mirror. */
@@ -244,60 +184,38 @@ static void mirror(double *u, size_t points)
     }
 }
 
-double gm_nodes_form(const struct gm_law *law)
+static double form(const struct gm_law *law)
 {
-    const struct gm_problem *problem = law->problem;
-    const size_t points = problem->line.points, size = points * sizeof(double);
-    const bool kdv = gm_field_of(problem)->equation == GM_NEEDS_KDV;
-    const bool has_past = kdv && law->y[2 * points] == -law->dt;
+    const size_t points = law->problem->line.points, size = points * sizeof(double);
+    const bool has_past = law->y[2 * points] == -law->dt;
     const struct gm_two_step_row *row = law->scheme->coefficients;
-    if (kdv && fabs(law->y[2 * points]) != fabs(law->dt)) {
+    if (fabs(law->y[2 * points]) != fabs(law->dt)) {
         return NAN; /* no level of the scheme lies before or after */
     }
     struct gm_law ahead = *law;
-    ahead.dt = kdv ? fabs(law->dt) : law->dt;
-    double *past = gm_arena_take(law->arena, 14 * points, sizeof *past);
-    double *now = past + points, *levels = past + 2 * points;
-    const struct base base = {
-        .law = &ahead,
-        .kdv = kdv,
-        .centred = kdv && row->law == GM_LAW_CENTRED,
-        .past = past,
-        .now = now,
-    };
+    ahead.dt = fabs(law->dt);
+    double *past = gm_arena_take(law->arena, 2 * points, sizeof *past), *now = past + points;
+    const struct base base = {&ahead, row->law == GM_LAW_CENTRED, past, now};
     memcpy(past, has_past ? law->y + points : law->y, size);
     memcpy(now, has_past ? law->y : law->y + points, size);
-    if (kdv && law->dt < 0) {
+    if (law->dt < 0) {
         mirror(past, points);
         mirror(now, points);
     }
-    struct tangent tangents[2] = {{.base = &base}, {.base = &base}};
-    for (size_t t = 0; t < 2; t++) {
-        for (size_t k = 0; k < 3; k++) {
-            tangents[t].first[k] = levels + (2 * k + t) * points;
-            tangents[t].second[k] = levels + (6 + 2 * k + t) * points;
-        }
-        (kdv ? advance_kdv : advance_nls)(&base, 0.3 + 0.4 * (double)t, 2 + (double)t, &tangents[t]);
-    }
-    return gm_nodes_law(&ahead, base.centred, kdv ? complete_kdv : complete_nls, &tangents[0], &tangents[1]);
+    const struct tangent a = tangent_of(&base, 0), b = tangent_of(&base, 1);
+    return gm_nodes_law(&ahead, base.centred, complete, &a, &b);
 }
 
 #define OF_NODES .family = &gm_family_nodes, .needs = GM_NEEDS_FORM | GM_NEEDS_KDV
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
-                    "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_NODES,
-                    .coefficients = &kdv_rows[0]),
-    GM_FIELD_SCHEME("midpoint-box", "midpoint box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
-                    "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
-                    "Razafindralandy et al. (2018), multisymplectic midpoint scheme", OF_NODES,
-                    .coefficients = &kdv_rows[1]),
+    {GM_TEXTS_euler_box_of_korteweg, OF_NODES, .coefficients = &kdv_rows[0]},
+    {GM_TEXTS_midpoint_box_of_korteweg, OF_NODES, .coefficients = &kdv_rows[1]},
 };
 
 const struct gm_family gm_family_nodes = {
     .title = "multisymplectic schemes of nodes",
     GM_FIELD_FAMILY,
     GM_TWO_STEP_LOOP,
-    .form = gm_nodes_form,
+    .form = form,
 };

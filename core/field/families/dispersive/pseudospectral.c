@@ -11,13 +11,9 @@
    waves. D. Dutykh, M. Chhay & F. Fedele, Comput. Math. Math. Phys. 53 (2013) 221, compare such a method with
    the box. */
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
-#include "core/field/families/families.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/families/family.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/fourier.h"
 
 struct work {
@@ -147,16 +143,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-#define OF_PSEUDOSPECTRAL .family = &gm_family_pseudospectral, .needs = GM_NEEDS_KDV, .in_modes = true
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME(
-        "fourier-rk4", "Fourier, RK4", 4, GM_KEEPS_LINEAR,
-        "N(u)ₖ = −ikη/2 (u²)ₖ,  e = exp(iμk³Δt/2):  a = N(u),  b = N(e(u + Δt/2 a)),  c = N(eu + Δt/2 b)\n"
-        "d = N(e²u + Δt e c),  u := e²u + Δt/6 (e²a + 2e(b + c) + d)",
-        "J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; B. Fornberg & G.B. Whitham, Phil. Trans. R. "
-        "Soc. A 289 (1978) 373",
-        OF_PSEUDOSPECTRAL),
+    {GM_TEXTS_fourier_rk4, .family = &gm_family_pseudospectral, .needs = GM_NEEDS_KDV, .in_modes = true},
 };
 
 const struct gm_family gm_family_pseudospectral = {

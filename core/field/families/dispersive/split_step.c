@@ -6,13 +6,9 @@
    R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423; J.A.C. Weideman & B.M. Herbst, SIAM J. Numer. Anal. 23
    (1986) 485: stable for dt < dx^2/pi on a plane wave's background. */
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core/basics.h"
-#include "core/field/families/families.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/families/family.h"
+#include "core/field/problems/problems.h"
 #include "core/linear/fourier.h"
 
 struct work {
@@ -93,12 +89,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-#define OF_SPLIT_STEP .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("split-step2", "split step 2", 2, GM_SYMMETRIC | GM_KEEPS_QUADRATIC,
-                    "ψ := e^{i|ψ|²Δt/2} ψ,  ψₖ := e^{−ik²Δt} ψₖ,  ψ := e^{i|ψ|²Δt/2} ψ",
-                    "R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423", OF_SPLIT_STEP),
+    {GM_TEXTS_split_step2, .family = &gm_family_split_step, .needs = GM_NEEDS_NLS, .in_modes = true},
 };
 
 const struct gm_family gm_family_split_step = {

@@ -3,10 +3,9 @@
        u^{n+1} = u^{n-1} - eta dt/(3 dx) (u_{i+1} + u_i + u_{i-1}) (u_{i+1} - u_{i-1})
                          - mu dt/dx^3 (u_{i+2} - 2 u_{i+1} + 2 u_{i-1} - u_{i-2}).
    Stable for dt below about 0.385 dx^3/mu. */
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
-#include "core/field/problems/dispersive.h"
+#include "core/field/problems/problems.h"
 
 /* 2 u_t at node i */
 static double twice_rate(const struct gm_problem *problem, const double *u, size_t i)
@@ -55,14 +54,9 @@ static void start(struct gm_two_step_work *work, const struct gm_problem *proble
 
 static const struct gm_two_step_row row = {.step = step, .start = start, .law = GM_LAW_NONE};
 
-#define OF_ZABUSKY_KRUSKAL .family = &gm_family_zabusky_kruskal, .needs = GM_NEEDS_KDV
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME(
-        "zabusky-kruskal", "Zabusky-Kruskal", 2, GM_SYMMETRIC | GM_KEEPS_LINEAR,
-        "uⁿ⁺¹ = uⁿ⁻¹ − ηΔt/3Δx (uᵢ₊₁ + uᵢ + uᵢ₋₁)(uᵢ₊₁ − uᵢ₋₁) − μΔt/Δx³ (uᵢ₊₂ − 2uᵢ₊₁ + 2uᵢ₋₁ − uᵢ₋₂)",
-        "N.J. Zabusky & M.D. Kruskal, Phys. Rev. Lett. 15 (1965) 240", OF_ZABUSKY_KRUSKAL,
-        .coefficients = &row),
+    {GM_TEXTS_zabusky_kruskal, .family = &gm_family_zabusky_kruskal, .needs = GM_NEEDS_KDV,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_zabusky_kruskal = {

@@ -110,21 +110,31 @@ static double nine_points(const struct base *base, const struct tangent *a, size
     return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
 }
 
+static void close_band(void *band)
+{
+    gm_ring_band_close(band);
+}
+
 /* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
-static bool solve_box(const struct base *base, const struct tangent *a, struct gm_ring_band *band)
+static void linearised_box(const struct base *base, const struct tangent *a)
 {
     const size_t points = base->law->problem->line.points;
     const double dt = base->law->dt, dx = base->law->problem->line.dx;
     const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);
     double *right = a->v_next; /* no scheme of cells keeps u_t */
+    struct gm_ring_band *band = gm_arena_take(base->law->arena, 1, sizeof *band);
+    gm_arena_need(base->law->arena, gm_ring_band_open(band, points, 1, 1));
+    gm_arena_keep(base->law->arena, band, close_band);
     for (size_t i = 0; i < points; i++) {
         const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
         gm_ring_band_add(band, i, 0, -1, 0, in_time - in_space + before);
         gm_ring_band_add(band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
         gm_ring_band_add(band, i, 0, 1, 0, in_time - in_space + after);
     }
-    const bool good = gm_ring_band_factor(band);
-    for (int k = 0; good && k < 3; k++) {
+    if (!gm_ring_band_factor(band)) {
+        gm_arena_leave(base->law->arena);
+    }
+    for (int k = 0; k < 3; k++) {
         for (size_t i = 0; i < points; i++) {
             right[i] = -nine_points(base, a, i);
         }
@@ -133,18 +143,6 @@ static bool solve_box(const struct base *base, const struct tangent *a, struct g
             a->next[i] += right[i];
         }
     }
-    return good;
-}
-
-static bool linearised_box(const struct base *base, const struct tangent *a)
-{
-    struct gm_ring_band band;
-    if (!gm_ring_band_open(&band, base->law->problem->line.points, 1, 1)) {
-        return false;
-    }
-    const bool good = solve_box(base, a, &band);
-    gm_ring_band_close(&band);
-    return good;
 }
 
 static void by_own_steps(const struct base *base, const struct tangent *a)
@@ -279,18 +277,14 @@ static struct tangent tangent_of(const struct base *base, size_t which)
         gm_tangent_start(a.v_past, points, waves, 3 * phase);
         gm_tangent_start(a.v_now, points, waves, 5 * phase);
     }
-    bool good = true;
     if (base->law->by_differences) {
         by_own_steps(base, &a);
     } else if (kind == GM_LAW_CELLS) {
-        good = linearised_box(base, &a);
+        linearised_box(base, &a);
     } else if (kind == GM_LAW_CENTRED) {
         linearised_centred(base, &a);
     } else {
         linearised_nodes(base, &a);
-    }
-    if (!good) {
-        gm_arena_leave(base->law->arena);
     }
     return a;
 }

@@ -10,12 +10,7 @@
    solution,
        leapfrog            4/dt^2        >= 4/dx^2 + V''
        energy-conserving   4/dt^2 + V''  >= 4/dx^2 */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
 #include "core/linear/settled.h"
@@ -112,31 +107,14 @@ static const struct gm_two_step_row rows[] = {
      .keeps_change = true},
 };
 
-static double longest_explicit(const struct gm_problem *problem, const double *y)
-{
-    return gm_wave_longest(problem, y, 4, 4);
-}
-
-static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
+static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", 4, 4};
 
 #define OF_LEAPFROG .family = &gm_family_leapfrog, .needs = GM_NEEDS_WAVE
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME(
-        "leapfrog", "leapfrog", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
-        "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
-        "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
-        OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]),
-    GM_FIELD_SCHEME("energy-conserving", "energy-conserving", 2, GM_KEEPS_ENERGY | GM_SYMMETRIC,
-                    "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
-                    "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271", OF_LEAPFROG,
-                    .coefficients = &rows[1]),
-    GM_FIELD_SCHEME(
-        "euler-box", "Euler box", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
-        "B. Moore & S. Reich, Numer. Math. 95 (2003) 625", OF_LEAPFROG, .limit = &explicit_limit,
-        .coefficients = &rows[0]),
+    {GM_TEXTS_leapfrog, OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]},
+    {GM_TEXTS_energy_conserving, OF_LEAPFROG, .coefficients = &rows[1]},
+    {GM_TEXTS_euler_box_of_waves, OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]},
 };
 
 const struct gm_family gm_family_leapfrog = {

@@ -21,12 +21,7 @@
    of the state to the other. */
 #include "core/field/families/waves/lobatto.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/settled.h"
@@ -362,48 +357,17 @@ static const struct gm_lobatto_row rows[] = {
      .drift = {OUTER, OUTER, INNER, OUTER, OUTER}},
 };
 
-static double longest_of_verlet(const struct gm_problem *problem, const double *y)
-{
-    return gm_wave_longest(problem, y, 4, 6);
-}
-static double longest_of_three(const struct gm_problem *problem, const double *y)
-{
-    return gm_wave_longest(problem, y, 8, 6);
-}
+static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", 4, 6};
+static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", 8, 6};
 /* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
-static double longest_of_suzuki(const struct gm_problem *problem, const double *y)
-{
-    return gm_wave_longest(problem, y, 7.403702439, 6);
-}
-static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", longest_of_suzuki};
-static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", longest_of_verlet};
-static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longest_of_three};
-
-#define IN_SPACE                                                                                                                   \
-    "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in " \
-    "turn, D = 2Δx\n"
+static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", 7.403702439, 6};
 
 #define OF_LOBATTO .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS
 
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME("lobatto-box2", "Lobatto box, r = 3, s = 2", 2, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-                    IN_SPACE
-                    "u″ = Lu − V′(u) with Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
-                    "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847", OF_LOBATTO,
-                    .limit = &verlet_limit, .coefficients = &rows[0]),
-    GM_FIELD_SCHEME(
-        "lobatto-box4", "Lobatto box, r = s = 3", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        IN_SPACE
-        "u″ = Lu − V′(u) = f:  uₕ = u + Δt v/2 + Δt²(f/12 + fₕ/24),  u₁ = u + Δt v + Δt²(f/6 + fₕ/3)\n"
-        "v₁ = v + Δt(f + 4fₕ + f₁)/6:  Lobatto IIIA-IIIB with three stages in x and t",
-        "R.I. McLachlan, B.N. Ryland & Y. Sun, SIAM J. Sci. Comput. 36 (2014) A2199", OF_LOBATTO,
-        .limit = &three_limit, .coefficients = &rows[1]),
-    GM_FIELD_SCHEME(
-        "lobatto-nystrom4", "Lobatto in x, Nyström in t", 4, GM_MULTISYMPLECTIC | GM_SYMMETRIC,
-        IN_SPACE "u″ = Lu − V′(u) with Verlet: c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
-        "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; M. Suzuki, Phys. "
-        "Lett. A 146 (1990) 319",
-        OF_LOBATTO, .limit = &suzuki_limit, .coefficients = &rows[2]),
+    {GM_TEXTS_lobatto_box2, OF_LOBATTO, .limit = &verlet_limit, .coefficients = &rows[0]},
+    {GM_TEXTS_lobatto_box4, OF_LOBATTO, .limit = &three_limit, .coefficients = &rows[1]},
+    {GM_TEXTS_lobatto_nystrom4, OF_LOBATTO, .limit = &suzuki_limit, .coefficients = &rows[2]},
 };
 
 const struct gm_family gm_family_lobatto = {

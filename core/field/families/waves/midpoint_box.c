@@ -8,10 +8,7 @@
    With v and w eliminated these are four leapfrogs on the grid of steps (2 dt, 2 dx) that know nothing of
    each other: the solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels
    of the state. Razafindralandy et al. (2018), the multisymplectic midpoint scheme. */
-#include <math.h>
-
-#include "core/basics.h"
-#include "core/field/families/families.h"
+#include "core/field/families/family.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/waves/form.h"
 
@@ -107,14 +104,9 @@ static double wave_energy(const struct gm_problem *problem, const struct gm_sche
 static const struct gm_two_step_row row = {
     .step = centred_step, .start = first_level, .law = GM_LAW_CENTRED, .keeps_rates = true};
 
-#define OF_MIDPOINT_BOX .family = &gm_family_midpoint_box, .needs = GM_NEEDS_WAVE
-
 static const struct gm_scheme schemes[] = {
-    GM_FIELD_SCHEME(
-        "midpoint-box", "midpoint box", 2, GM_MULTISYMPLECTIC,
-        "M (sⁿ⁺¹ − sⁿ⁻¹)/2Δt + K (sᵢ₊₁ − sᵢ₋₁)/2Δx = ∇S(s)",
-        "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
-        OF_MIDPOINT_BOX, .coefficients = &row),
+    {GM_TEXTS_midpoint_box_of_waves, .family = &gm_family_midpoint_box, .needs = GM_NEEDS_WAVE,
+     .coefficients = &row},
 };
 
 const struct gm_family gm_family_midpoint_box = {

@@ -1,15 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations with frames of reference that move with the velocity lambda: Korteweg and de Vries' (dispersive.h), and
-   on nodes between two ends, of which the first and the last hold exact values,
-       Burgers   u_t + u u_x = nu u_xx        (t, x, u) -> (t, x + lambda t, u + lambda)
-       heat      u_t = nu u_xx for u > 0      (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu)))
-   with t from the start on. */
-#ifndef GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
-#define GM_CORE_FIELD_PROBLEMS_MOVING_FRAMES_H
+/* Fields on a line that the program's own schemes are for, and their parameters. */
+#ifndef GM_CORE_FIELD_PROBLEMS_PROBLEMS_H
+#define GM_CORE_FIELD_PROBLEMS_PROBLEMS_H
 
 #include "core/field/field.h"
 #include "core/scheme.h"
 #include "core/user/line.h"
+
+/* ---- waves ---- */
+
+/* u_tt - u_xx + V'(u) = 0, V = -cos u or V = 0: the caller sets line and n = gm_wave_size(line.points). */
+extern const struct gm_problem gm_problem_sine_gordon, gm_problem_wave;
+
+/* The form of every wave equation, in s = (u, u_t, u_x). */
+extern const struct gm_form gm_form_of_waves;
+
+/* ---- frames of reference ---- */
+
+/* Equations with frames of reference that move with the velocity lambda: Korteweg and de Vries', and
+   on nodes between two ends, of which the first and the last hold exact values,
+       Burgers   u_t + u u_x = nu u_xx        (t, x, u) -> (t, x + lambda t, u + lambda)
+       heat      u_t = nu u_xx for u > 0      (t, x, u) -> (t, x + lambda t, u exp(-lambda x/(2 nu) - lambda^2 t/(4 nu)))
+   with t from the start on. */
 
 /* The nodes of an equation in a frame with the velocity lambda: at rest in that frame, or moving by lambda
    dt per step. */
@@ -58,22 +70,31 @@ static inline bool gm_frame_rests(const struct gm_framed *framed, const struct g
            (framed->frame == GM_FRAME_EACH && !(scheme->claims & GM_EQUIVARIANT));
 }
 
-/* Returns the exact value at time t at the node that starts at x and moves with this speed. */
-double gm_frame_exact(const struct gm_framed *framed, double speed, double x, double t);
+/* ---- dispersive equations ---- */
 
-/* The exact values that the first and the last node hold, if they move with this speed. Values of many steps are
-   computed together. */
-enum { GM_ENDS_BLOCK = 64 };
-struct gm_frame_ends {
-    double speed;
-    size_t next, count; /* of the values, which are those of the first node and then those of the last */
-    double values[2 * GM_ENDS_BLOCK];
+/* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem, and its frames of
+   reference,
+       (t, x, u) -> (t, x + lambda t, u + lambda/eta) */
+struct gm_kdv {
+    struct gm_framed framed; /* first */
+    double eta, mu;
 };
-/* Sets both ends of the level after step k of a task, from 0 on, one step after the other. */
-void gm_frame_ends_set(struct gm_frame_ends *ends, const struct gm_task *task, int64_t k, double *level);
+static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
 
-/* The heat equation: the divisor of the value at time t, in the new frame, at the node that was at x at the start and
-   rests there (fixed) or moves, which gives the value in the original frame. */
-double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, double t);
+/* Nonlinear Schroedinger, i psi_t + psi_xx + k |psi|^2 psi = 0; the state is Re psi, then Im psi. */
+struct gm_nls {
+    struct gm_user_line line; /* first; of a file, else empty */
+    double k;
+};
+static inline const struct gm_nls *gm_nls_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+/* The caller sets line, n (kdv: gm_wave_size, nls: 2 points) and parameters (struct gm_kdv; nls: else k = 1). */
+extern const struct gm_problem gm_problem_kdv, gm_problem_nls;
 
 #endif
