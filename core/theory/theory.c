@@ -220,7 +220,7 @@ static struct gm_ball at(const struct gm_coefficients *coefficients, int side, i
     return coefficients->a[side][i * coefficients->stages + j];
 }
 
-/* What has to vanish. */
+/* Residuals of conditions, which all vanish where these hold. */
 struct residuals {
     struct gm_arena *arena;
     struct gm_ball *at;

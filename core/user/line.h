@@ -34,13 +34,14 @@ bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_are
                           void *data);
 /* Closes any problem of such a file. */
 void gm_user_line_close(struct gm_problem *problem);
-/* In that body: takes the problem's parameters, and opens their line; `values` are those of all variables
-   (gm_equations_start), of what starts there are `outputs`. */
+/* The next three work in that body. Takes the problem's parameters, `size` bytes. */
 void *gm_user_line_take(struct gm_arena *arena, struct gm_problem *problem,
                         const struct gm_user_system *system, size_t size);
+/* Opens the line; `values` are those of all variables (gm_equations_start), `outputs` is the number of nodes of the
+   start. */
 void gm_user_line_open(struct gm_user_line *line, const gm_node_id *start, size_t outputs,
                        const gm_node_id *exact, const double *values);
-/* In that body: opens a tape of other nodes of the file. */
+/* Opens a tape of other nodes of the file. */
 void gm_user_line_tape(const struct gm_user_line *line, struct gm_tape *tape, const gm_node_id *nodes,
                        size_t count, size_t inputs, const double *values);
 
