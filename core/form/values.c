@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/linear/cholesky.h"
+#include "core/linear/vectors.h"
 
 static size_t size_of(const struct gm_form_values *values, size_t step)
 {
@@ -161,13 +162,12 @@ static void reduce(const struct gm_form_values *values, size_t i)
    point: its place in the plane of the triangle, with what is negative cut off. */
 static double distance_to(const double corners[9], const double place[3], double weight[3])
 {
-    double u[3], v[3], w[3], uu = 0, uv = 0, vv = 0, uw = 0, vw = 0, off = 0;
-    for (int k = 0; k < 3; k++) {
-        u[k] = corners[3 + k] - corners[k];
-        v[k] = corners[6 + k] - corners[k];
-        w[k] = place[k] - corners[k];
-        uu += u[k] * u[k], uv += u[k] * v[k], vv += v[k] * v[k], uw += u[k] * w[k], vw += v[k] * w[k];
-    }
+    double u[3], v[3], w[3], off = 0;
+    gm_subtract(corners + 3, corners, u);
+    gm_subtract(corners + 6, corners, v);
+    gm_subtract(place, corners, w);
+    const double uu = gm_dot(u, u), uv = gm_dot(u, v), vv = gm_dot(v, v), uw = gm_dot(u, w),
+                 vw = gm_dot(v, w);
     weight[1] = fmax(0, (vv * uw - uv * vw) / (uu * vv - uv * uv));
     weight[2] = fmax(0, (uu * vw - uv * uw) / (uu * vv - uv * uv));
     weight[0] = fmax(0, 1 - weight[1] - weight[2]);
