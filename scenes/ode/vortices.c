@@ -161,17 +161,11 @@ static void place(const struct gm_vortices *vortices, size_t count, double *x, d
     }
 }
 
-/* Returns true if two vortices start at one point, where they would have no velocity; random ones are never
-   so close. */
+/* Returns true if two of four vortices start at one point, where they would have no velocity. */
 static bool coincide(const struct gm_vortices *vortices)
 {
     double x[4], y[4];
-    if (vortices->configuration == GM_RANDOM || vortices->configuration == GM_PATCHES ||
-        vortices->configuration == GM_SQUARE) {
-        return false;
-    }
-    const size_t carried = gm_vortices_carried(vortices);
-    place(vortices, carried, x, y);
+    place(vortices, gm_vortices_carried(vortices), x, y);
     if (vortices->configuration == GM_REDUCED) {
         for (size_t i = 0; i < 2; i++) {
             x[2 + i] = -x[i];
@@ -234,7 +228,7 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
         return gm_refuse(sentence, "count=%ld without multipole: more than %d are for multipole=1e-9",
                          vortices->count, BY_PAIRS);
     }
-    if (coincide(vortices)) {
+    if (!any_count && coincide(vortices)) { /* others are never so close */
         return gm_refuse(sentence, "two vortices coincide at the start: another %s is needed",
                          vortices->configuration == GM_VORTEX_COLLISION ? "distance" : "angle");
     }

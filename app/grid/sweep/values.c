@@ -86,11 +86,6 @@ static double value_of(const struct gm_sweep *sweep, const struct gm_view *view)
                : gm_observe(gm_scene_observable_at(sweep->scene, sweep->number - components), view);
 }
 
-static size_t width(const struct gm_view *view)
-{
-    return gm_active_count(view->problem);
-}
-
 static void record(const struct gm_view *view, double *entry)
 {
     memcpy(entry, view->state, gm_active_count(view->problem) * sizeof *entry);
@@ -135,8 +130,7 @@ static void follow(struct gm_arena *arena, void *data)
     const struct gm_view start = gm_lane_view(lane);
     if (sweep->place == GM_AT_SECTION) {
         track = sweep->scene->tracks[gm_scene_section(sweep->scene)];
-        track.numbers = 0;
-        track.width = width;
+        track.numbers = gm_active_count(&lane->problem);
         track.record = record;
         track.each = false;
         track.bound = PASSAGES;
