@@ -18,7 +18,7 @@
 #undef GM_SYSTEM_SCENE
 #undef GM_ROOM_SCENE
 
-static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
+static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
 /* Why the last file could not be opened. */
 static char reason[GM_MESSAGE] = "not enough memory";
@@ -108,12 +108,12 @@ size_t gm_scene_count(void)
 
 const struct gm_scene *gm_scene_at(size_t index)
 {
-    pthread_mutex_lock(&opening);
+    pthread_mutex_lock(&one_at_a_time);
     if (!rows[index].scene) {
         rows[index].scene = open_file(gm_built_in_find(rows[index].kind, rows[index].file));
     }
     const struct gm_scene *scene = rows[index].scene;
-    pthread_mutex_unlock(&opening);
+    pthread_mutex_unlock(&one_at_a_time);
     return scene ? scene : &unavailable;
 }
 
