@@ -255,12 +255,10 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
     followed->why = view->run->status != GM_OK ? gm_status_name(view->run->status)
                     : left                     ? "the run was stopped: its orbit has left"
                     : steps == 0               ? "no step was made yet"
-                    : !gm_growth_to(followed->growth, steps)
-                        ? gm_growth_grazes(followed->growth)
-                              ? "the motion only touches the surface of an event there: no tangent"
-                              : "a step beside the orbit fails"
-                    : !is_same(view, followed) ? "the run was changed on its way"
-                                               : NULL;
+                                               : gm_growth_to(followed->growth, steps);
+    if (!followed->why && !is_same(view, followed)) {
+        followed->why = "the run was changed on its way";
+    }
     return followed->why ? NULL : followed->growth;
 }
 
