@@ -18,7 +18,7 @@
 #undef GM_SYSTEM_SCENE
 #undef GM_ROOM_SCENE
 
-static pthread_mutex_t opening = PTHREAD_MUTEX_INITIALIZER;
+static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
 /* Why the last file could not be opened. */
 static char reason[GM_MESSAGE] = "not enough memory";
@@ -48,6 +48,16 @@ static const struct gm_scene *open_room(const struct gm_built_in *file, struct g
     return gm_user_room_open(&room, fault, sentence);
 }
 
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system,
+                                            const struct gm_system_origin *origin,
+                                            struct gm_system_opening *opening)
+{
+    const struct gm_system_maker *maker = gm_system_is_form(system)    ? &gm_system_forms
+                                          : gm_system_is_field(system) ? &gm_system_fields
+                                                                       : &gm_system_motions;
+    return gm_system_scene_make(maker, system, origin, opening);
+}
+
 static const struct gm_scene *open_system(const struct gm_built_in *file, struct gm_fault *fault)
 {
     struct gm_user_system system;
@@ -59,7 +69,7 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
     size_t others;
     const bool elsewhere = gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
     return gm_system_scene_open(&system,
-                                (struct gm_system_origin){.name = file->name, .elsewhere = elsewhere},
+                                &(struct gm_system_origin){.name = file->name, .elsewhere = elsewhere},
                                 &(struct gm_system_opening){.fault = fault, .sentence = sentence});
 }
 
@@ -98,12 +108,12 @@ size_t gm_scene_count(void)
 
 const struct gm_scene *gm_scene_at(size_t index)
 {
-    pthread_mutex_lock(&opening);
+    pthread_mutex_lock(&one_at_a_time);
     if (!rows[index].scene) {
         rows[index].scene = open_file(gm_built_in_find(rows[index].kind, rows[index].file));
     }
     const struct gm_scene *scene = rows[index].scene;
-    pthread_mutex_unlock(&opening);
+    pthread_mutex_unlock(&one_at_a_time);
     return scene ? scene : &unavailable;
 }
 

@@ -62,21 +62,6 @@ struct gm_sweep_options {
 void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
                    const struct gm_sweep_options *options, int *status);
 
-/* The values of a run, of which the last are kept in a ring: pairs of t and value. */
-struct gm_sweep_series {
-    double *pairs; /* malloc'ed */
-    size_t count;  /* all of them */
-};
-
-struct gm_drive;
-
-/* Reads --values and --at for runs such as the one of a lane; leaves the body of the sweep's arena with a sentence. */
-void gm_sweep_read_values(struct gm_sweep *sweep, const char *values, const char *at,
-                          const struct gm_lane *lane);
-/* Makes a run, and takes its values. Returns false when out of memory; the caller frees the pairs. */
-bool gm_sweep_follow(const struct gm_sweep *sweep, struct gm_drive *drive, int64_t steps,
-                     struct gm_sweep_series *series);
-
 /* The number of the cell with the index of a value, for gm_csv_lines; 0: a run has one row. */
 size_t gm_sweep_index_cell(const struct gm_sweep *sweep);
 

@@ -267,11 +267,11 @@ static bool open_system(struct making *making)
     made->close = gm_system_scene_close;
     struct gm_system_opening opening = {.fault = &fault, .sentence = making->message};
     made->scene = gm_system_scene_open(&making->system,
-                                       (struct gm_system_origin){.name = made->name,
-                                                                 .words = words,
-                                                                 .path = written->path,
-                                                                 .typed = !written->path,
-                                                                 .elsewhere = making->elsewhere},
+                                       &(struct gm_system_origin){.name = made->name,
+                                                                  .words = words,
+                                                                  .path = written->path,
+                                                                  .typed = !written->path,
+                                                                  .elsewhere = making->elsewhere},
                                        &opening);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);

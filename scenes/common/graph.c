@@ -120,16 +120,11 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
                              : gm_picture_text(picture, "%s / %.3g", front, scale);
 }
 
-/* If several lanes share panel `p`: names each under its title, in its own colour and dash, instead of a note
-   on one of them. */
+/* Names each lane of panel `p` under its title, in its own colour and dash, instead of a note on one of them. */
 static void name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
                        size_t count, size_t p)
 {
-    size_t sharing = 0;
     for (size_t i = 0; i < count; i++) {
-        sharing += lanes[i]->shown.panel == p;
-    }
-    for (size_t i = 0; i < count && sharing > 1; i++) {
         if (lanes[i]->shown.panel != p) {
             continue;
         }
@@ -263,7 +258,9 @@ struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk 
     const char *failure = gm_lane_failure(picture, walk->lane);
     panel->title_role = gm_lane_role(walk->lane->shown.colour);
     panel->note = failure[0] ? failure : otherwise;
-    name_lanes(picture, panel, walk->lanes, walk->count, walk->panel);
+    if (!gm_lane_is_alone(walk->lanes, walk->count, walk->lane)) {
+        name_lanes(picture, panel, walk->lanes, walk->count, walk->panel);
+    }
     return panel;
 }
 

@@ -108,7 +108,8 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable)
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_observable *row = gm_scene_observable_at(lane->scene, observable);
-    const struct gm_view view = gm_lane_view(lane);
+    struct gm_view view = gm_lane_view(lane);
+    view.observable = row;
     return row->why ? row->why(&view) : row->missing;
 }
 

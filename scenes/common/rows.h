@@ -5,8 +5,8 @@
 #include "core/basics.h"
 #include "core/parameter.h"
 
-/* The rows of a scene's tables; those of parameters are in core/parameter.h. A row ends with the title of an observable, and
-   further fields of its struct may follow, as there. */
+/* The rows of a scene's tables, beside the rows of parameters in core/parameter.h. A row ends with the title of an
+   observable, and further fields of its struct may follow, as there. */
 
 /* The two parameters of every scene. */
 #define GM_DT(standard, low, high)                                                                           \

@@ -17,8 +17,8 @@
 #include "core/linear/eigenvalues.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
-#include "core/ode/indicators/stiffness.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -309,58 +309,97 @@ static double radian_at(const struct gm_problem *problem, const double *y)
     return rate > 1e-6 && isfinite(rate) ? 1 / rate : 1;
 }
 
-/* Returns 1 / the largest frequency at the start, or the shortest such time at `looks` more points along the
+/* Returns 1 / the largest frequency at a state, or the shortest such time at `looks` more points along the
    first ten of it. */
-static double shortest_radian(const struct gm_system_lane *lane, int looks)
+static double radian_along(const struct gm_problem *problem, const double *y, double looks)
 {
-    struct gm_problem problem;
-    char sentence[GM_MESSAGE];
-    if (lane->owner->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
-        return 1;
-    }
-    double *y = calloc(problem.n, sizeof *y), *values = gm_system_start_values(lane, NULL), radian = 1;
-    if (y && values) {
-        memcpy(y, values, lane->owner->system.n * sizeof *y);
-        problem.m = 1;
-        radian = radian_at(&problem, y);
-    }
     const struct gm_settings settings = {0};
-    const double step = radian / 20;
+    double radian = radian_at(problem, y);
     struct gm_run *run =
-        y && values && looks > 0 ? gm_run_open(&problem, gm_scheme_find("rk4"), &settings, 0, step, y) : NULL;
-    for (int i = 0; run && i < looks && gm_run_advance(run, 200 / looks) == GM_OK; i++) {
-        radian = fmin(radian, radian_at(&problem, gm_run_state(run)));
+        looks > 0 ? gm_run_open(problem, gm_scheme_find("rk4"), &settings, 0, radian / 20, y) : NULL;
+    for (int i = 0; run && i < looks && gm_run_advance(run, (int64_t)(200 / looks)) == GM_OK; i++) {
+        radian = fmin(radian, radian_at(problem, gm_run_state(run)));
     }
     gm_run_close(run);
-    free(values);
-    free(y);
-    gm_user_problem_close(&problem);
     return radian;
 }
 
-/* Returns true if the system at its defaults is stiff (core/ode/indicators/stiffness.h). */
-static bool is_stiff(const struct gm_system_lane *lane, double until)
+/* Returns max(-Re eig J) at a state, at least 0. */
+static double decay_at(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    const size_t n = problem->n;
+    double *re = matrix + n * n, fastest = 0;
+    const bool known = gm_jacobian(problem, y, matrix) && gm_eigenvalues(matrix, n, re, re + n);
+    for (size_t i = 0; known && i < n; i++) {
+        fastest = fmax(fastest, -re[i]);
+    }
+    return fastest;
+}
+
+/* Returns 1 if a > 1e3 b and a until > 1e4, where a is the rate of the fastest decay at the start and at 4 points of a trial
+   with gsl-msbdf over until / 100, and b the rate of the solution after its first quarter, max |f_i| / (|y_i| + s), s the
+   largest |y_j| of the trial. 0 also if the problem has no Jacobian, the trial fails, or when out of memory. */
+static double stiffness(const struct gm_problem *problem, const double *y0, double until)
+{
+    enum { POINTS = 4, PART = 100 };
+    const size_t n = problem->n;
+    const struct gm_settings settings = {0};
+    const struct gm_scheme *scheme = gm_scheme_find("gsl-msbdf");
+    const bool fits = gm_matrix_size(problem) > 0 && gm_scheme_fits(scheme, problem);
+    double *matrix = fits ? calloc(n * n + 4 * n, sizeof *matrix) : NULL;
+    struct gm_run *run =
+        matrix && until > 0 ? gm_run_open(problem, scheme, &settings, 0, until / PART / POINTS, y0) : NULL;
+    if (!run) {
+        free(matrix);
+        return 0;
+    }
+    double *sizes = matrix + n * n + 2 * n, *rates = sizes + n, scale = 0;
+    double fast = decay_at(problem, y0, matrix), slow = 0;
+    for (int i = 0; i < POINTS && gm_run_advance(run, 1) == GM_OK; i++) {
+        const double *y = gm_run_state(run);
+        fast = fmax(fast, decay_at(problem, y, matrix));
+        for (size_t c = 0; c < n; c++) {
+            scale = fmax(scale, fmax(fabs(y0[c]), fabs(y[c])));
+            sizes[c] = i == 0 ? fabs(y[c]) : sizes[c];
+        }
+        if (i == 0) {
+            gm_field(problem, y, rates, 1);
+        }
+    }
+    for (size_t c = 0; c < n && scale > 0; c++) {
+        slow = fmax(slow, fabs(rates[c]) / (sizes[c] + scale));
+    }
+    const bool stiff = run->status == GM_OK && fast > 1e3 * slow && fast * until > 1e4;
+    gm_run_close(run);
+    free(matrix);
+    return stiff;
+}
+
+/* Measures a lane's problem with one member at its start; `otherwise` if it is large, or when out of memory. */
+static double measure_start(const struct gm_system_lane *lane,
+                            double (*measure)(const struct gm_problem *problem, const double *y, double data),
+                            double data, double otherwise)
 {
     struct gm_problem problem;
     char sentence[GM_MESSAGE];
     if (lane->owner->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
-        return false;
+        return otherwise;
     }
-    double *values = gm_system_start_values(lane, NULL), *y = calloc(problem.n, sizeof *y);
-    if (values && y) {
-        memcpy(y, values, lane->owner->system.n * sizeof *y);
-    }
+    double *y = calloc(problem.n, sizeof *y), *values = gm_system_start_values(lane, NULL);
     problem.m = 1;
-    const bool stiff = values && y && gm_is_stiff(&problem, y, until);
+    if (y && values) {
+        memcpy(y, values, lane->owner->system.n * sizeof *y);
+        otherwise = measure(&problem, y, data);
+    }
     free(values);
     free(y);
     gm_user_problem_close(&problem);
-    return stiff;
+    return otherwise;
 }
 
 static double radian_time(const void *parameters)
 {
-    return shortest_radian(parameters, 0);
+    return measure_start(parameters, radian_along, 0, 1);
 }
 
 /* ---- a click ---- */
@@ -488,12 +527,14 @@ static void make_timing(struct gm_system_scene *system_scene)
     gm_system_open_timing(system_scene, numbers);
     const int looks = system->n <= MOST_FOLLOWED ? 10 : 0;
     const double dt =
-        numbers[0] > 0 ? numbers[0] : gm_written_rounded(0.1 * shortest_radian(system_scene->initial, looks));
+        numbers[0] > 0
+            ? numbers[0]
+            : gm_written_rounded(0.1 * measure_start(system_scene->initial, radian_along, looks, 1));
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
     system_scene->is_stiff = !(numbers[0] > 0) && !(numbers[2] >= 0) && !system->texts[GM_WORD_SCHEMES] &&
-                             is_stiff(system_scene->initial, until);
+                             measure_start(system_scene->initial, stiffness, until, 0) > 0;
     gm_written_timing(system_scene->arena, system,
                       system_scene->is_stiff ? gm_written_rounded(until / STIFF_STEPS) : dt, until,
                       system_scene->rows);

@@ -742,6 +742,8 @@ python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_er
 printf 'rate: x = v, v = 0, w = 0\ninvariant: V = v\ninvariant: W = w\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\n' >gate.system
 "$geomint" run gate.system scheme=rk4 until=3 --json >out || fail 'invariants that events change'
 python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["events"] == 2 and kept["V_error"] == kept["W_error"] == 0, kept' || fail "invariants that events change: $(cat out)"
+"$geomint" run kepler --measure projection,relaxation steps=4 --json >out || fail 'no corrections'
+python3 -c 'import json; why = json.load(open("out"))["reasons"]; assert "not projected" in why["projection"] and "not relaxed" in why["relaxation"], why' || fail "no corrections: $(cat out)"
 printf 'choice: kind = one of one, two; which\nrate: x = v, v = 0, w = 0\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\ninvariant: W = w\nwhen: kind = two\nobserve: a = x\nobserve: b = v\ninvariant: V = v\nwhen: always\nuntil: 3\n' >gates.system
 "$geomint" run gates.system kind=two scheme=rk4 --json >out || fail 'events of another word of a choice'
 python3 -c 'import json; kept = json.load(open("out"))["observables"]; assert kept["b"] == 2 and kept["V_error"] == kept["W_error"] == 0, kept' || fail "events of another word of a choice: $(cat out)"

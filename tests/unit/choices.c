@@ -51,7 +51,7 @@ static const struct gm_scene *open_scene(const char *text, struct gm_fault *faul
         snprintf(sentence, GM_MESSAGE, "%s", fault->sentence);
         return NULL;
     }
-    return gm_system_scene_open(&system, (struct gm_system_origin){.name = "test", .words = words},
+    return gm_system_scene_open(&system, &(struct gm_system_origin){.name = "test", .words = words},
                                 &(struct gm_system_opening){.fault = fault, .sentence = sentence});
 }
 
@@ -186,7 +186,7 @@ static void combinations_are_checked(void **unused)
     struct gm_user_system system;
     assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
     const struct gm_scene *scene =
-        gm_system_scene_open(&system, (struct gm_system_origin){.name = "test"},
+        gm_system_scene_open(&system, &(struct gm_system_origin){.name = "test"},
                              &(struct gm_system_opening){.fault = &fault, .sentence = sentence});
     if (!scene) {
         fail_msg("%s", sentence);

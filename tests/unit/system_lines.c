@@ -34,7 +34,7 @@ static const struct gm_scene *open_scene(const char *text, char *sentence)
     if (!gm_equations_open(&system, text, strlen(text), NULL, 0, &fault)) {
         fail_msg("%s: %s", text, fault.sentence);
     }
-    return gm_system_scene_open(&system, (struct gm_system_origin){.name = "test", .words = words},
+    return gm_system_scene_open(&system, &(struct gm_system_origin){.name = "test", .words = words},
                                 &(struct gm_system_opening){.fault = &fault, .sentence = sentence});
 }
 

@@ -151,15 +151,22 @@ static void add_dot(struct dots *dots, size_t most, double x, double y)
     }
 }
 
+/* The number that a choice of a word is; NaN: none. */
+static double number_of(const struct gm_word *word, size_t choice)
+{
+    char text[GM_TEXT_SIZE];
+    double number = NAN;
+    gm_number_parse(gm_word_value(word, choice, text), &number);
+    return number;
+}
+
 /* Takes the rows of a run with many values. */
 static void take_values(struct gm_sweep_chart *chart, size_t run, const char *rows)
 {
-    char text[GM_TEXT_SIZE];
     const struct gm_words *words = &chart->sweep->words;
     const struct gm_word *word = &words->list[chart->keys[0]];
     const size_t value = gm_sweep_index_cell(chart->sweep) + 2;
-    double x = NAN;
-    gm_number_parse(gm_word_value(word, gm_words_choice(words, chart->keys[0], run), text), &x);
+    const double x = number_of(word, gm_words_choice(words, chart->keys[0], run));
     for (const char *row = rows; *row; row = strchr(row, '\n') + 1) {
         char *end = NULL;
         const char *cell = gm_csv_cell(row, value);
@@ -261,12 +268,9 @@ static struct extent extent_of(const struct gm_sweep_chart *chart, size_t observ
 /* The number that stands for a bin: of those of its runs the middle one. */
 static double value_at(const struct gm_sweep_chart *chart, size_t axis, size_t bin)
 {
-    char text[GM_TEXT_SIZE];
     const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
     const double each = (double)word->count / (double)chart->bins[axis];
-    double value = NAN;
-    gm_number_parse(gm_word_value(word, (size_t)(each * ((double)bin + 0.5)), text), &value);
-    return value;
+    return number_of(word, (size_t)(each * ((double)bin + 0.5)));
 }
 
 /* The bins of an axis by their values, which may have been typed in any order. */
@@ -495,9 +499,7 @@ static size_t nearest_choice(const struct gm_sweep_chart *chart, size_t axis, do
     size_t nearest = 0;
     double least = INFINITY;
     for (size_t i = 0; i < word->count; i++) {
-        char text[GM_TEXT_SIZE];
-        double value = NAN;
-        gm_number_parse(gm_word_value(word, i, text), &value);
+        const double value = number_of(word, i);
         const double away = powers ? fabs(log(value / place)) : fabs(value - place);
         if (away < least) {
             least = away;

@@ -222,7 +222,7 @@ static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
 
 /* ---- advancing ---- */
 
-bool gm_growth_to(struct gm_growth *growth, int64_t steps)
+const char *gm_growth_to(struct gm_growth *growth, int64_t steps)
 {
     struct gm_stretch made[BLOCK];
     const struct gm_run *run = growth->run;
@@ -239,12 +239,10 @@ bool gm_growth_to(struct gm_growth *growth, int64_t steps)
         }
         growth->failed = count < block;
     }
-    return !growth->failed;
-}
-
-bool gm_growth_grazes(const struct gm_growth *growth)
-{
-    return gm_tangent_grazes(growth->tangent);
+    return !growth->failed ? NULL
+           : gm_tangent_grazes(growth->tangent)
+               ? "the motion only touches the surface of an event there: no tangent"
+               : "a step beside the orbit fails";
 }
 
 const struct gm_run *gm_growth_run(const struct gm_growth *growth)

@@ -39,12 +39,8 @@ void gm_growth_close(struct gm_growth *growth);
 /* Follows n vectors instead of one, at first the axes, from the start on. Returns false when out of memory. */
 bool gm_growth_follow_all(struct gm_growth *growth);
 
-/* Advances to `steps` steps in all; never back. Returns false if the orbit or a neighbour stops being finite
-   before. */
-bool gm_growth_to(struct gm_growth *growth, int64_t steps);
-
-/* Returns true if the orbit only touches the surface of an event: it has no derivative there. */
-bool gm_growth_grazes(const struct gm_growth *growth);
+/* Advances to `steps` steps in all; never back. Returns NULL, or the reason if the orbit or a neighbour stops before. */
+const char *gm_growth_to(struct gm_growth *growth, int64_t steps);
 
 /* Returns the run along the orbit. */
 const struct gm_run *gm_growth_run(const struct gm_growth *growth);

@@ -79,7 +79,7 @@ struct gm_system_measure {
     struct gm_tape *formula; /* NULL: a function of its own */
     struct gm_tape *terms;   /* of an error: the sum of the magnitudes of its terms; else NULL */
     size_t booked;           /* 1 + the number of the quantity whose jumps at events count; else 0 */
-    size_t what, index;      /* of forms: enum gm_form_subject, and the number of such a subject */
+    size_t what, index;      /* of forms: their subject (scenes/form/form.h) */
 };
 
 /* The data that follows from a system once. */

@@ -8,15 +8,6 @@
 
 #include "core/model/equations.h"
 
-size_t gm_system_count_items(const struct gm_user_system *system, enum gm_system_word word)
-{
-    size_t count = 0;
-    while (gm_system_item_of(system, word, count)) {
-        count++;
-    }
-    return count;
-}
-
 double *gm_system_start_values(const struct gm_system_lane *lane, const char *given)
 {
     const struct gm_system_scene *system_scene = lane->owner;

@@ -6,9 +6,6 @@
 
 #include "scenes/common/system/look.h"
 
-/* Returns the number of items of a word. */
-size_t gm_system_count_items(const struct gm_user_system *system, enum gm_system_word word);
-
 /* Returns values of all variables at the start, from the rows that are `given`, or from all rows if NULL.
    malloc'ed; NULL when out of memory. */
 double *gm_system_start_values(const struct gm_system_lane *lane, const char *given);

@@ -184,12 +184,6 @@ void gm_system_open_items(struct gm_system_scene *system_scene)
 
 /* ---- writing ---- */
 
-bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word)
-{
-    const struct gm_system_item *item = gm_system_item_of(&system_scene->system, word, 0);
-    return item && strstr(item->text, "{schemes}");
-}
-
 /* Returns the values of lane number `i`; numbers is NULL when out of memory. */
 static struct values values_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                size_t i, const struct gm_system_item *item)

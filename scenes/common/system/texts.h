@@ -13,8 +13,6 @@ void gm_system_open_items(struct gm_system_scene *system_scene);
    subtitle, between semicolons, are left out if they differ between lanes. */
 const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                  enum gm_system_word word, const char *otherwise);
-/* Returns true if the file's text names the schemes itself. */
-bool gm_system_names_schemes(const struct gm_system_scene *system_scene, enum gm_system_word word);
 
 /* Sets the style of a graph as a line graph: says. */
 void gm_system_graph(const struct gm_system_item *item, struct gm_graph *graph);

@@ -413,15 +413,14 @@ static void unite(struct gm_arena *arena, void *data)
     }
 }
 
-const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struct gm_system_origin origin,
+const struct gm_scene *gm_system_scene_make(const struct gm_system_maker *maker,
+                                            struct gm_user_system *system,
+                                            const struct gm_system_origin *origin,
                                             struct gm_system_opening *opening)
 {
-    const struct gm_system_maker *maker = gm_system_is_form(system)    ? &gm_system_forms
-                                          : gm_system_is_field(system) ? &gm_system_fields
-                                                                       : &gm_system_motions;
     const bool alone = !maker->rebuilt && system->choices.count == 0;
     *opening->fault = (struct gm_fault){0};
-    struct gm_system_scene *first = open_one(system, maker, &origin, opening);
+    struct gm_system_scene *first = open_one(system, maker, origin, opening);
     const unsigned long refusals = gm_memory_refusals();
     if (!first) {
         return NULL;

@@ -39,7 +39,13 @@ struct gm_system_opening {
 
 /* Makes the scene of a system opened by gm_equations_open, and takes it: the scene's end, or a failure here, closes it.
    Opens also the systems of all words of its choices, and gives all of them the same rows. Returns NULL on failure. */
-const struct gm_scene *gm_system_scene_open(struct gm_user_system *system, struct gm_system_origin origin,
+const struct gm_scene *gm_system_scene_make(const struct gm_system_maker *maker,
+                                            struct gm_user_system *system,
+                                            const struct gm_system_origin *origin,
+                                            struct gm_system_opening *opening);
+/* The same with the maker of the system's kind. */
+const struct gm_scene *gm_system_scene_open(struct gm_user_system *system,
+                                            const struct gm_system_origin *origin,
                                             struct gm_system_opening *opening);
 /* Closes the scene, and the other systems of its file. */
 void gm_system_scene_close(const struct gm_scene *scene);

@@ -78,7 +78,7 @@ static bool choose_body(struct aim *aim)
     return nearest < INFINITY;
 }
 
-/* Finds the coordinates among the first `count` that change the body's place; false if they are none or too many. */
+/* Finds the coordinates among the first `count` that change the body's place; false without any, or with too many. */
 static bool choose_places(struct aim *aim, size_t count)
 {
     const double before[] = {aim->numbers[2 * aim->body], aim->numbers[2 * aim->body + 1]};

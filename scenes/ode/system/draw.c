@@ -753,7 +753,8 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
         return;
     }
     picture->title = gm_system_shown_text(picture, lanes, count, GM_WORD_TITLE, NULL);
-    if (!picture->title || !gm_system_names_schemes(system_scene, GM_WORD_TITLE)) {
+    const struct gm_system_item *title = gm_system_item_of(&system_scene->system, GM_WORD_TITLE, 0);
+    if (!picture->title || !strstr(title->text, "{schemes}")) {
         picture->title =
             gm_picture_text(picture, "%s, by %s", picture->title ? picture->title : name,
                             one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));

@@ -16,10 +16,6 @@ enum {
     DOUBLINGS = 12
 };
 
-struct box {
-    double low[2], high[2];
-};
-
 /* A level of a lane on a grid: the variables of F beside the two components, and F at the corners. */
 struct level {
     const struct gm_tape *tape;
@@ -121,13 +117,13 @@ static bool take_level(struct level *level, const struct gm_lane *lane, size_t *
     return false;
 }
 
-static double corner(const struct box *box, int axis, size_t i, size_t cells)
+static double corner(const struct gm_window *box, int axis, size_t i, size_t cells)
 {
     return box->low[axis] + (box->high[axis] - box->low[axis]) * (double)i / (double)cells;
 }
 
 /* Writes F at the (cells + 1)^2 corners, row by row. */
-static void fill_grid(const struct level *level, const struct box *box, size_t cells)
+static void fill_grid(const struct level *level, const struct gm_window *box, size_t cells)
 {
     const size_t width = cells + 1;
     for (size_t v = 0; v < level->variable_count; v++) {
@@ -157,7 +153,7 @@ static int above(const struct level *level, size_t cells, size_t i, size_t j)
 
 /* Writes the cells of the curve around the middle of the grid to `found`. False without a curve that is
    closed in the box. */
-static bool follow(const struct level *level, struct box *found, const struct box *box)
+static bool follow(const struct level *level, struct gm_window *found, const struct gm_window *box)
 {
     enum { CELLS = SOUGHT, ALL = CELLS * CELLS };
     bool seen[ALL] = {false};
@@ -213,9 +209,9 @@ void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *si
         const double size = fmax(reach[0], reach[1]);
         for (int k = 0; k < DOUBLINGS; k++) {
             const double half = size * exp2(k);
-            const struct box box = {{middle[0] - half, middle[1] - half},
-                                    {middle[0] + half, middle[1] + half}};
-            struct box found = {{1, 1}, {0, 0}};
+            const struct gm_window box = {{middle[0] - half, middle[1] - half},
+                                          {middle[0] + half, middle[1] + half}};
+            struct gm_window found = {{1, 1}, {0, 0}};
             fill_grid(&level, &box, SOUGHT);
             if (follow(&level, &found, &box)) {
                 for (int axis = 0; axis < 2; axis++) {
@@ -233,7 +229,7 @@ void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, st
                           const double *values, const size_t cells[2])
 {
     static const double zero = 0;
-    const struct box box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
+    const struct gm_window box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
     const size_t width = cells[0] + 1, corners = width * (cells[1] + 1), count = cells[0] * cells[1];
     double *points = gm_picture_memory(picture, 2 * corners * sizeof *points);
     int *triangles = gm_picture_memory(picture, 6 * count * sizeof *triangles);
@@ -256,7 +252,7 @@ void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, c
                            const struct gm_sight *sight)
 {
     static const size_t cells[2] = {DRAWN, DRAWN};
-    const struct box box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
+    const struct gm_window box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
     struct level level;
     if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
         return;

@@ -36,14 +36,13 @@ struct energies {
     struct gm_modified_energy *energy; /* NULL: it does not exist; `why` has the reason */
     char why[GM_MODIFIED_WHY];
     struct state start, now;
+    double memory[]; /* of both states */
 };
 
 static void forget_energies(void *data)
 {
     struct energies *energies = data;
     gm_modified_energy_close(energies->energy);
-    free(energies->start.y);
-    free(energies->now.y);
     free(energies);
 }
 
@@ -58,19 +57,17 @@ static struct energies *energies_of(const struct gm_view *view, int power)
         forget_energies(energies);
     }
     const size_t n = view->problem->n;
-    view->worked[GM_WORKED_ENERGY].data = energies = calloc(1, sizeof *energies);
+    energies = calloc(1, sizeof *energies + 2 * n * sizeof *energies->memory);
+    view->worked[GM_WORKED_ENERGY] = (struct gm_worked){energies, forget_energies};
     if (!energies) {
         return NULL;
     }
-    view->worked[GM_WORKED_ENERGY].forget = forget_energies;
     energies->scheme = view->scheme;
     energies->power = power;
     energies->n = n;
-    energies->start.y = malloc(n * sizeof(double));
-    energies->now.y = malloc(n * sizeof(double));
-    if (energies->start.y && energies->now.y) {
-        energies->energy = gm_modified_energy_open(view->problem, view->scheme, power, energies->why);
-    }
+    energies->start.y = energies->memory;
+    energies->now.y = energies->memory + n;
+    energies->energy = gm_modified_energy_open(view->problem, view->scheme, power, energies->why);
     return energies;
 }
 
@@ -258,12 +255,10 @@ static const struct gm_growth *followed_to(const struct gm_view *view, size_t ki
     followed->why = view->run->status != GM_OK ? gm_status_name(view->run->status)
                     : left                     ? "the run was stopped: its orbit has left"
                     : steps == 0               ? "no step was made yet"
-                    : !gm_growth_to(followed->growth, steps)
-                        ? gm_growth_grazes(followed->growth)
-                              ? "the motion only touches the surface of an event there: no tangent"
-                              : "a step beside the orbit fails"
-                    : !is_same(view, followed) ? "the run was changed on its way"
-                                               : NULL;
+                                               : gm_growth_to(followed->growth, steps);
+    if (!followed->why && !is_same(view, followed)) {
+        followed->why = "the run was changed on its way";
+    }
     return followed->why ? NULL : followed->growth;
 }
 

@@ -154,12 +154,21 @@ static void name_axes(struct gm_system_scene *system_scene, struct gm_sight *sig
     }
 }
 
+/* Returns the number of items of a word. */
+static size_t count_items(const struct gm_user_system *system, enum gm_system_word word)
+{
+    size_t count = 0;
+    while (gm_system_item_of(system, word, count)) {
+        count++;
+    }
+    return count;
+}
+
 /* Opens the sight of `view` and `rod` lines. */
 static void open_view(struct gm_system_scene *system_scene, struct gm_sight *sight)
 {
     const struct gm_user_system *system = &system_scene->system;
-    const size_t views = gm_system_count_items(system, GM_WORD_VIEW),
-                 rods = gm_system_count_items(system, GM_WORD_ROD);
+    const size_t views = count_items(system, GM_WORD_VIEW), rods = count_items(system, GM_WORD_ROD);
     const size_t dimensions = views > 0 ? gm_system_item_of(system, GM_WORD_VIEW, 0)->count
                                         : gm_system_item_of(system, GM_WORD_ROD, 0)->count / 2;
     *sight = (struct gm_sight){
@@ -175,7 +184,7 @@ static void open_view(struct gm_system_scene *system_scene, struct gm_sight *sig
 void gm_system_open_surfaces(struct gm_system_scene *system_scene)
 {
     gm_node_id nodes[3 * GM_MOST_SURFACES];
-    const size_t count = gm_system_count_items(&system_scene->system, GM_WORD_SURFACE);
+    const size_t count = count_items(&system_scene->system, GM_WORD_SURFACE);
     if (count > GM_MOST_SURFACES) {
         gm_arena_refuse(system_scene->arena, "a system has at most %d surfaces; this has %zu",
                         GM_MOST_SURFACES, count);
@@ -208,7 +217,7 @@ void gm_system_make_sights(struct gm_system_scene *system_scene)
     system_scene->sights = gm_arena_take(system_scene->arena, GM_MOST_SIGHTS, sizeof *system_scene->sights);
     system_scene->shows = gm_arena_take(system_scene->arena, GM_MOST_SIGHTS + 5 + system->item_count,
                                         sizeof *system_scene->shows);
-    if (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0) {
+    if (count_items(system, GM_WORD_VIEW) > 0 || count_items(system, GM_WORD_ROD) > 0) {
         open_view(system_scene, &system_scene->sights[system_scene->sight_count++]);
     }
     if (n == 1) {
