@@ -7,7 +7,7 @@
 
 /* The parts of a room's picture. */
 
-/* What the field of a flow looks like. */
+/* The look of the field of a flow. */
 struct gm_look {
     const char *axes[2];   /* labels of x and y of the field, if one lane is shown; NULL: none are drawn */
     double scalar_high;    /* the scalar's range */
