@@ -125,7 +125,8 @@ const struct gm_scene *gm_scene_called(const char *word)
 const struct gm_scene *gm_scene_of_words(int count, char *const words[])
 {
     const struct gm_scene *scene = gm_scene_called(words[0]);
-    for (int i = 1; scene && i < count; i++) {
+    const bool opened = scene && scene->parameter_count > 0;
+    for (int i = 1; opened && scene && i < count; i++) {
         const char *key = gm_replacing_key(words[i]);
         scene = key && !gm_scene_parameter(scene, key) && gm_system_is(words[0]) ? NULL : scene;
     }

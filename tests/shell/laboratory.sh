@@ -255,9 +255,9 @@ cmp -s "$folder/stiff-stability.png" "$folder/again/stiff-stability-again.png" |
 head -1 "$folder/again/vortices-work-precision-again.csv" | grep -q angular_impulse_error ||
     fail "again forgets the measure"
 
-# a step that ends at the first t after until
+# an adaptive scheme ends at until too
 "$geomint" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
-grep -Eq '"t":10\.[0-9]+' "$folder/out" || fail "logh2 does not end just after until: $(cat "$folder/out")"
+grep -q '"message":"","warning":"","t":10,' "$folder/out" || fail "logh2 does not end at until: $(cat "$folder/out")"
 
 [ $failures -eq 0 ] && echo "all well"
 exit $((failures > 0))

@@ -440,7 +440,7 @@ static void damaged_heads_are_refused(void **unused)
     assert_non_null(snapshot);
     gm_run_save(run, snapshot);
     assert_true(gm_run_load(run, snapshot));
-    snapshot->unsolved.obstacle = (enum gm_obstacle)(GM_STILL_LARGE + 1);
+    snapshot->unsolved.obstacle = (enum gm_obstacle)(GM_STAYS_OFF + 1);
     assert_false(gm_run_load(run, snapshot));
     free(snapshot);
     gm_run_close(run);
