@@ -2,7 +2,6 @@
 /* A run's one block of memory, its steps, and its snapshots. */
 #include "core/run.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -384,7 +383,9 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     if (!events || !(events->changes || (run->ends && events->ends_runs))) {
         return make_steps(run, steps, until);
     }
-    for (int64_t alone = 0; steps > 0 && run->status == GM_OK && !run->stopped;) {
+    const bool ends = run->scheme->family->adaptive;
+    for (int64_t alone = 0;
+         steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
         const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
         if (together && make_together(run)) {
             steps -= TOGETHER;
@@ -475,7 +476,8 @@ static double time_beyond(void *data, double fraction)
 /* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. */
 static void end_at(struct gm_run *run, double until)
 {
-    const double reach = 4 * DBL_EPSILON * fabs(until);
+    /* times that the scheme itself computes have its rounding errors */
+    const double reach = 1e-12 * fmax(fabs(until), fabs(run->dt));
     const int64_t earlier = run->behind - 1;
     if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
         return;

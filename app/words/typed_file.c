@@ -276,7 +276,11 @@ static bool next_use(const struct typing *typing, struct use *use)
                 continue;
             }
             const char behind = text[length + strspn(text + length, " \t")];
-            const bool rate = key == FORMULA_RATE && begins_rate(value, (size_t)(text - value));
+            const bool rate = key == FORMULA_RATE && begins_rate(value, (size_t)(text - value)),
+                       of_part = key == FORMULA_PART && behind == ';'; /* part='A; x = v' */
+            if (of_part) {
+                continue;
+            }
             if (rate || (behind != '(' && !gm_formula_reserves(text, length))) { /* but for functions */
                 *use = (struct use){{i, at},
                                     length,

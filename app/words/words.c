@@ -156,6 +156,9 @@ void gm_words_close(struct gm_words *words)
 
 static void add_value(struct gm_arena *arena, struct gm_word *list, const char *text, size_t length)
 {
+    const size_t blanks = strspn(text, " "); /* scheme='rk4, verlet' */
+    text += blanks < length ? blanks : length;
+    length -= blanks < length ? blanks : length;
     if (length == 0) {
         gm_arena_refuse(arena, "%s= has an empty value", list->key);
     }

@@ -939,11 +939,12 @@ bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, s
 {
     struct reader reader = {
         .graph = graph, .scope = *scope, .text = text, .at = begin, .end = end, .fault = fault};
+    const struct gm_span all = {begin, end};
     *fault = (struct gm_fault){.offset = begin};
     *node = 0;
     const bool whole = setjmp(reader.leave) == 0;
     if (whole) {
-        *node = read_span(&reader, (struct gm_span){begin, end}, scope->is_condition);
+        *node = read_span(&reader, all, scope->is_condition);
     }
     graph->place = GM_NO_PLACE;
     return whole;

@@ -793,6 +793,10 @@ def ends():
         file.write(PLEIADES)
     told = json.loads(geomint("run ./stars.system scheme=controlled-gauss8 --json --state").stdout)
     check(told["t"] == 3 and abs(told["state"][0] - 0.370613914) < 1e-8, f"the Pleiades: {told['t']}, {told['state'][0]}")
+    for words, until in (("kepler", 7.3), ("kepler", 0.001), ("lotka-volterra", 3)):  # the last has a line stop:
+        told = json.loads(geomint(f"run {words} scheme=relaxed(rk4;H) until={until} --json").stdout)
+        check(abs(told["t"] - until) <= 1e-12 and told["message"] == told["warning"] == "" and told["steps"] < 200,
+              f"relaxed on {words}: it ends at {told['t']!r} after {told['steps']} steps")
     told = json.loads(geomint("run oscillator scheme=variational-midpoint until=7.3 --json").stdout)
     check(told["t"] > 7.3 and "is adaptive" in told["message"], "steps of a variational principle stay whole")
 

@@ -296,9 +296,16 @@ def parts_are_typed():
                              "A + B is not H"),
                             (("list", "kepler", "part=A = p1^2/2, B = -1/"), "in part=, column 20"),
                             (("run", "cavity", "part=A = 1", "steps=1"), 'no parameter "part"'),
-                            (("list", "kdv", "H=u"), 'no parameter "H"')):
+                            (("list", "kdv", "H=u"), 'no parameter "H"'),
+                            (("run", "lorenz", "scheme=sabac2(linear, rest)", "steps=1"), "for its corrector"),
+                            (("run", "abc", "scheme=strang(linear, rest)", "steps=1"), "there is none in this system"),
+                            # its coefficients are not those of a splitting into T and V
+                            (("backward", "henon-heiles", "scheme=strang(linear, rest)", "until=1"), "is unknown")):
         refused = subprocess.run([GEOMINT, *words], capture_output=True, text=True)
         check(refused.returncode == 1 and sentence in refused.stderr, f"{words}: {refused.stderr}")
+    pendulum = ("system", "rate=x = v, v = -sin(x)", "x=1", "v=0.2", "steps=20")
+    check(distance(state(*pendulum, "part=A; x = v", "part=B; v = -sin(x)", "scheme=strang(B, A)"),
+                   state(*pendulum, "scheme=verlet")) < 1e-14, "parts of typed rates")
     listed = subprocess.run([GEOMINT, "list", "kepler", "part=" + part, "--long"], capture_output=True, text=True).stdout
     check(re.search(r"^  A +.*\n  B ", listed, re.M), "list kepler part=... has no parts A and B")
 

@@ -74,7 +74,7 @@ static void print_certificate(const struct gm_certificate *certificate)
             "  theory does not apply: %s\n",
             scheme->base
                 ? "the way back to an invariant has no coefficients"
-                : "a part is not a tableau, splitting or Nystrom method, or they have more than 256 stages");
+                : "a part is not a tableau, a splitting into T and V, or a Nystrom method, or they have more than 256 stages");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];

@@ -141,7 +141,8 @@ static void open_terms(struct opening *opening)
     if (!gm_scheme_coefficients_open(arena, opening->scheme, &coefficients)) {
         gm_arena_refuse(
             arena,
-            "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, splitting or composition",
+            "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, a splitting into T and V, or a "
+            "composition of these",
             title);
     }
     gm_coefficients_reduce(&coefficients);

@@ -200,8 +200,8 @@ static void resolve(struct gm_arena *arena, void *data)
     if (naming->node == GM_NO_NODE) {
         refuse(
             arena, naming,
-            "an invariant %.40s (there are %.160sand those without a name of list --invariants, %s1, %s2, ...)",
-            naming->name, names_of(arena, system), word, word);
+            "an invariant %.40s (there are %.160s%sthose without a name of list --invariants, %s1, %s2, ...)",
+            naming->name, names_of(arena, system), names_of(arena, system)[0] ? "and " : "", word, word);
     }
     if (!trusted) {
         check_rate(arena, naming);

@@ -1022,8 +1022,11 @@ static void finish(const struct making *making, struct own *self, const char *na
     if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
     }
-    if (!row->exact && parts_of(row)) {
+    if (parts_of(row)) {
+        const int order = theory.order; /* of any two parts; what else coefficients tell is of T and V */
         theory = theory_of_parts(making, parts_of(row), &schemes[GM_SCHEME_WORD_BASE]);
+        theory.order = order > 0 ? order : theory.order;
+        row->exact = NULL;
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known && theory.order == 0; word++) {
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;

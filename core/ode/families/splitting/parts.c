@@ -162,6 +162,9 @@ static const char *other_names(const struct work *work, const char *name)
         all = gm_arena_print(work->arena, "%s%s%s", all, count ? ", " : "", parts->names[count]);
     }
     const char *near = gm_nearest(name, count, name_of, parts->names);
+    if (near && strcmp(near, name) == 0) {
+        return "there is none in this system";
+    }
     return near ? gm_arena_print(work->arena, "did you mean %s", near)
                 : gm_arena_print(work->arena, count ? "there are %s" : "this system has no parts%s", all);
 }
@@ -285,7 +288,7 @@ static void open_corrector(struct work *work, size_t number)
                      zero = gm_formula_constant(graph, 0);
     gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
                *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
-    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = true;
+    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = n % 2 == 0;
     for (size_t i = 0; i < n; i++) {
         momenta[i] = i >= half && i < 2 * half;
         along[i] = rates[i] = zero;
