@@ -146,9 +146,9 @@ static double nls_laws(const struct levels *p, const struct levels *q, double *l
 /* The laws as told, for the step from the state on, and as found here: of opposite sign. */
 static void expect_laws(struct gm_run *run, bool complex_valued)
 {
-    double now[2 * POINTS], found[LAWS][POINTS], told[POINTS], law_largest = 0;
+    double now[2 * POINTS + 1], found[LAWS][POINTS], told[POINTS], law_largest = 0;
     double *const laws[LAWS] = {found[0], found[1], found[2]};
-    memcpy(now, gm_run_state(run), sizeof now);
+    memcpy(now, gm_run_state(run), run->problem->n * sizeof *now);
     double of_step[LAWS][POINTS];
     for (int law = 0; law < LAWS; law++) {
         assert_true(
