@@ -298,7 +298,7 @@ def parts_are_typed():
                             (("run", "cavity", "part=A = 1", "steps=1"), 'no parameter "part"'),
                             (("list", "kdv", "H=u"), 'no parameter "H"'),
                             (("run", "lorenz", "scheme=sabac2(linear, rest)", "steps=1"), "for its corrector"),
-                            (("run", "abc", "scheme=strang(linear, rest)", "steps=1"), "there is none in this system"),
+                            (("run", "abc", "scheme=strang(linear, rest)", "steps=1"), "this system does not have it"),
                             # its coefficients are not those of a splitting into T and V
                             (("backward", "henon-heiles", "scheme=strang(linear, rest)", "until=1"), "is unknown")):
         refused = subprocess.run([GEOMINT, *words], capture_output=True, text=True)

@@ -1023,7 +1023,7 @@ static void finish(const struct making *making, struct own *self, const char *na
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
     }
     if (parts_of(row)) {
-        const int order = theory.order; /* of any two parts; what else coefficients tell is of T and V */
+        const int order = theory.order; /* of any two parts; all else is of T and V */
         theory = theory_of_parts(making, parts_of(row), &schemes[GM_SCHEME_WORD_BASE]);
         theory.order = order > 0 ? order : theory.order;
         row->exact = NULL;

@@ -163,7 +163,7 @@ static const char *other_names(const struct work *work, const char *name)
     }
     const char *near = gm_nearest(name, count, name_of, parts->names);
     if (near && strcmp(near, name) == 0) {
-        return "there is none in this system";
+        return "this system does not have it";
     }
     return near ? gm_arena_print(work->arena, "did you mean %s", near)
                 : gm_arena_print(work->arena, count ? "there are %s" : "this system has no parts%s", all);
