@@ -482,6 +482,7 @@ static void end_at(struct gm_run *run, double until)
     if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
         return;
     }
+    const unsigned long refusals = gm_memory_refusals();
     int from = 1 - run->current;
     struct last_step last = {.run = run, .dt = run->dt, .until = until};
     if (earlier > 0) { /* the other half is more than one step behind */
@@ -504,6 +505,14 @@ static void end_at(struct gm_run *run, double until)
     run->behind = 1;
     run->t = last.t;
     reset_workspace(run);
+    if (gm_memory_refusals() != refusals) { /* no step of these trials is valid */
+        run->status = GM_OUT_OF_MEMORY;
+        run->current = from;
+        run->t = run->t_behind;
+        run->n--;
+        run->steps--;
+        run->behind = 0;
+    }
 }
 
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)

@@ -25,8 +25,7 @@ enum gm_obstacle {
 struct gm_unsolved {
     enum gm_obstacle obstacle;
     int invariant; /* the one that is farthest off, of those that the scheme holds */
-    double
-        change; /* last change, relative to the state; or the invariant's distance, relative to its scale */
+    double change; /* the last one, relative to the state; or the invariant's distance, to its scale */
 };
 
 /* The name of a status as the command line prints it ("blow-up"). */

@@ -253,10 +253,13 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         [GM_SINGULAR] = ": its matrix is singular",
         [GM_NOT_FINITE] = ": its iteration leaves the numbers",
         [GM_STILL_LARGE] = ": its iteration still changes by",
+        [GM_STAYS_OFF] = " to round-off",
     };
+    const struct gm_holding *holding = gm_holding_of(run->scheme);
+    const size_t farthest = (size_t)run->unsolved.invariant; /* it may come from a file */
     char change[40] = "", shorter[40] = "a shorter dt";
     const char *const name = run->scheme->name;
-    if (run->unsolved.obstacle == GM_STAYS_OFF) {
+    if (run->unsolved.obstacle == GM_STAYS_OFF && holding && farthest < holding->count) {
         snprintf(change, sizeof change,
                  isfinite(run->unsolved.change) ? "it stays off by %.2g of its scale"
                                                 : "the iteration leaves the numbers",
@@ -264,7 +267,7 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
         snprintf(
             text, size,
             "the step after t = %.6g found no way back to the value that %s has at the start: %s; take a shorter dt",
-            run->t, gm_holding_of(run->scheme)->names[run->unsolved.invariant], change);
+            run->t, holding->names[farthest], change);
         return;
     }
     if (run->unsolved.obstacle == GM_STILL_LARGE) {
