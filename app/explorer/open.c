@@ -457,8 +457,14 @@ void gm_explorer_check_typed(struct gm_explorer *explorer)
     if (prompt->kind == GM_TYPED_NONE || prompt->checked) {
         return;
     }
-    prompt->checked = knows_fault(&explorer->check, readers[prompt->kind], prompt->line.text, explorer->wake,
-                                  &prompt->fault);
+    const bool scheme = prompt->kind == GM_TYPED_SWITCH || prompt->kind == GM_TYPED_FORK;
+    char *scene = scheme ? gm_studies_words(explorer->open.shot) : NULL, *line = NULL;
+    if (asprintf(&line, "%s%s%s", scene ? scene : "", scheme ? "\n" : "", prompt->line.text) > 0) {
+        prompt->checked =
+            knows_fault(&explorer->check, readers[prompt->kind], line, explorer->wake, &prompt->fault);
+        free(line);
+    }
+    free(scene);
     explorer->dirty = explorer->dirty || prompt->checked;
     if (prompt->checked && prompt->entered) {
         if (prompt->fault.sentence[0]) {

@@ -139,6 +139,7 @@ bool gm_typed_check(const char *line, struct gm_typed_fault *fault);
 
 /* The same for a scheme, a name, a path or a word, which goes to *kept; NULL: it is only checked. */
 bool gm_typed_scheme(const char *line, const struct gm_scheme **kept, struct gm_typed_fault *fault);
+/* Checks a scheme for a scene: before it in the line are the scene's words and a line end. */
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault);
 
 #endif

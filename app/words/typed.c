@@ -257,5 +257,23 @@ bool gm_typed_scheme(const char *line, const struct gm_scheme **kept, struct gm_
 
 bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
 {
-    return gm_typed_scheme(line, NULL, fault);
+    static const char key[] = " scheme='";
+    const size_t scene = strcspn(line, "\n");
+    const char *typed = line + scene + (line[scene] == '\n');
+    if (!gm_typed_scheme(typed, NULL, fault)) {
+        return false;
+    }
+    size_t begin = 0;
+    char *scheme = scheme_of(typed, &begin), *whole = NULL;
+    const bool joined = scheme && asprintf(&whole, "%.*s%s%s'", (int)scene, line, key, scheme) > 0;
+    const long first = (long)(scene + sizeof key - 1);
+    if (!joined) {
+        whole = NULL;
+        fail(fault, "not enough memory");
+    } else if (!gm_typed_check(whole, fault)) {
+        fault->at = (long)begin + (fault->at < first ? 0 : fault->at - first);
+    }
+    free(scheme);
+    free(whole);
+    return fault->sentence[0] == '\0';
 }

@@ -104,17 +104,22 @@ static void schemes(void **unused)
 {
     (void)unused;
     struct gm_typed_fault fault;
-    assert_true(gm_typed_check_scheme("verlet", &fault));
-    assert_true(gm_typed_check_scheme("scheme='composition(verlet; 1/2, 1/2)'", &fault));
-    assert_false(gm_typed_check_scheme("composition(verlet; 1/2, 1)", &fault));
+    assert_true(gm_typed_check_scheme("kepler\nverlet", &fault));
+    assert_true(gm_typed_check_scheme("kepler\nscheme='composition(verlet; 1/2, 1/2)'", &fault));
+    assert_false(gm_typed_check_scheme("kepler\ncomposition(verlet; 1/2, 1)", &fault));
     assert_non_null(strstr(fault.sentence, "sum to 1.5"));
-    assert_false(gm_typed_check_scheme("  composition(vrlet; 1)", &fault));
+    assert_false(gm_typed_check_scheme("kepler\n  composition(vrlet; 1)", &fault));
     assert_int_equal(fault.at, 14);
-    assert_true(gm_typed_check_scheme("composition(rk4, adjoint(rk4); 1/2, 1/2)", &fault));
-    assert_false(gm_typed_check_scheme("composition(rk4, vrlet; 1/2, 1/2)", &fault));
+    assert_true(gm_typed_check_scheme("kepler\ncomposition(rk4, adjoint(rk4); 1/2, 1/2)", &fault));
+    assert_false(gm_typed_check_scheme("kepler\ncomposition(rk4, vrlet; 1/2, 1/2)", &fault));
     assert_int_equal(fault.at, 17);
-    assert_false(gm_typed_check_scheme("vrlet", &fault));
+    assert_false(gm_typed_check_scheme("kepler\nvrlet", &fault));
     assert_int_equal(fault.at, 0);
+    assert_false(gm_typed_check_scheme("kepler\nboris2", &fault));
+    assert_non_null(strstr(fault.sentence, "it needs a magnetic field"));
+    assert_int_equal(fault.at, 0);
+    assert_false(gm_typed_check_scheme("system H=p^2/2-cos(q) q=2 p=0\nstrang(kinetic, foo)", &fault));
+    assert_non_null(strstr(fault.sentence, "it needs a part foo"));
     assert_true(
         gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &(const struct gm_scheme *){NULL}, &fault));
 }
