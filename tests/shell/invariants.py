@@ -179,6 +179,16 @@ for words, sentence in [
     if out.returncode != 1 or sentence not in out.stderr or out.stdout:
         fail(f"{' '.join(words)}: {out.returncode}, {out.stderr}")
 
+# the errors of those without a name, beside the components of the Laplace-Runge-Lenz vector
+row = json.loads(subprocess.run([GEOMINT, "run", "kepler", "scheme=rk4", "steps=100", "--json", "--state", "--measure",
+                                 "I1_error,I2_error,I3_error"], capture_output=True, text=True, check=True).stdout)
+x, y, u, v = row["state"]
+r = (x * x + y * y) ** 0.5
+wanted = [abs(y / r + x * u * v - y * u * u), abs((x / r - x * v * v + y * u * v) / 0.5 + 1)]
+got = [row["observables"][f"I{k}_error"] for k in (1, 2, 3)]
+if any(abs(a - b) > 1e-14 for a, b in zip(wanted, got)) or got[2] is not None or max(wanted) < 1e-6:
+    fail(f"errors of I1, I2, I3: {got}, not {wanted}")
+
 # numbers that a prime field would take for short ones: x^2 + 2561*y^2 is no invariant
 for factor in "(1 + 1e-15)", "2^61":
     found = json.loads(run("system", f"rate=x = {factor}*y, y = -x", "x=1", "y=1", "--invariants", "--json").stdout)

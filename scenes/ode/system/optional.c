@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/linear/curve.h"
+#include "core/model/invariants.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
@@ -465,6 +466,71 @@ static const char *why_no_loop_error(const struct gm_view *view)
                : gm_ring_why(view);
 }
 
+/* ---- invariants without a name ---- */
+
+enum { GM_FOUND = 4 /* the largest number of them that have an observable */ };
+
+struct unnamed {
+    size_t count;
+    struct gm_conserved invariants[GM_FOUND];
+    char lacks[GM_FAULT_SENTENCE]; /* what the system has instead of the next one */
+};
+
+static void forget_unnamed(void *data)
+{
+    struct unnamed *unnamed = data;
+    for (size_t i = 0; i < unnamed->count; i++) {
+        gm_conserved_close(&unnamed->invariants[i]);
+    }
+    free(unnamed);
+}
+
+/* Those of the lane, for its values of parameters; NULL when out of memory. */
+static const struct unnamed *unnamed_of(const struct gm_view *view)
+{
+    struct gm_worked *worked = &view->worked[GM_WORKED_FOUND];
+    struct unnamed *unnamed = worked->data ? worked->data : calloc(1, sizeof *unnamed);
+    if (unnamed && !worked->data) {
+        const char *word = gm_found_word(&gm_system_scene_of(view)->system);
+        bool opened = true;
+        while (opened && unnamed->count < GM_FOUND) {
+            char name[16];
+            snprintf(name, sizeof name, "%s%zu", word, unnamed->count + 1);
+            opened = gm_conserved_open(&unnamed->invariants[unnamed->count], view->problem,
+                                       (const char *[]){name}, 1, unnamed->lacks);
+            unnamed->count += opened;
+        }
+        *worked = (struct gm_worked){unnamed, forget_unnamed};
+    }
+    return unnamed;
+}
+
+/* |I - I(0)| / |I(0)| of the last member; |I| if I(0) = 0. */
+static double found_error(const struct gm_view *view)
+{
+    const size_t number = strtoul(strpbrk(view->observable->key, "123456789"), NULL, 10);
+    const struct unnamed *unnamed = unnamed_of(view);
+    if (!unnamed || number > unnamed->count) {
+        return NAN;
+    }
+    double before = NAN, now = NAN, *start = last_of(view, view->start), *state = last_of(view, view->state);
+    if (start && state) {
+        gm_conserved_values(&unnamed->invariants[number - 1], start, &before);
+        gm_conserved_values(&unnamed->invariants[number - 1], state, &now);
+    }
+    free(start);
+    free(state);
+    return fabs(now - before) / (before == 0 ? 1 : fabs(before));
+}
+
+static const char *why_not_found(const struct gm_view *view)
+{
+    const struct unnamed *unnamed = unnamed_of(view);
+    return unnamed && unnamed->lacks[0]
+               ? "the system has no further invariant without a name: list --invariants"
+               : NULL;
+}
+
 /* ---- the rows ---- */
 
 #define MODIFIED(power, powers)                                                                              \
@@ -514,7 +580,8 @@ void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_
 {
     const size_t exponents = n <= GM_NEWTON_LARGEST ? n : 0,
                  more = exponents > 0 ? exponents + GM_COUNT(spectrum_rows) : 0;
-    struct gm_observable *asked = gm_arena_take(arena, count + more, sizeof *asked);
+    struct gm_observable *asked = gm_arena_take(arena, count + more + GM_FOUND, sizeof *asked);
+    const char *word = gm_found_word(&((const struct gm_system_scene *)scene)->system);
     memcpy(asked, rows, count * sizeof *asked);
     for (size_t k = 0; k < more; k++) {
         struct gm_observable *row = &asked[count + k];
@@ -525,8 +592,17 @@ void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_
                                                      gm_arena_print(arena, "Lyapunov exponent %zu", k + 1));
         row->group = "lyapunov_spectrum";
     }
+    for (size_t k = 0; k < GM_FOUND; k++) {
+        asked[count + more + k] = (struct gm_observable){
+            .key = gm_arena_print(arena, "%s%zu_error", word, k + 1),
+            .title = gm_arena_print(arena, "error of %s%zu, an invariant of list --invariants", word, k + 1),
+            .unit = "",
+            .evaluate = found_error,
+            .logarithmic = true,
+            .why = why_not_found};
+    }
     scene->asked = asked;
-    scene->asked_count = count + more;
+    scene->asked_count = count + more + GM_FOUND;
 }
 
 /* ---- the picture of modified energies ---- */
