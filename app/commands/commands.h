@@ -119,6 +119,8 @@ void gm_put_duration(double seconds, char *text, size_t size);
    other values. Without a file the words are the whole system, "system H=... key=value ...". Returns the
    exit status. */
 int gm_list_system(const struct gm_options *options, const struct gm_file *file);
+/* Prints the structure and the parts of the scene's system, as that list has them. */
+void gm_list_structure(const struct gm_options *options, const struct gm_file *file);
 
 /* Puts "schemes" and "same_as": for every scheme with other names here, these. same[i] makes the steps of schemes[i], or is NULL. */
 void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *schemes,

@@ -311,16 +311,27 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     printf("}\n");
 }
 
+/* Returns true if a word means a file: a scene of the program has precedence over a file, unless it is
+   built on it. */
+static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *file)
+{
+    return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));
+}
+
 /* `file`: the scene's file, or NULL. */
 static int list_scene(const struct gm_scene *scene, const char *name, const struct gm_file *file,
                       const struct gm_options *options)
 {
     struct entry entry;
+    struct gm_file system;
     open_entry(&entry, scene, name, options);
     if (options->json) {
         print_entry_json(&entry, file);
     } else {
         print_entry(&entry, options);
+        if (options->longer && find_file(GM_FILE_SYSTEM, name, &system)) {
+            gm_list_structure(options, &system);
+        }
     }
     return gm_finish(GM_EXIT_OK);
 }
@@ -413,13 +424,6 @@ _Noreturn static void refuse_name(const struct gm_options *options, const char *
         "list knows scenes, systems, rooms, schemes, figures, tours and the names of scenes, systems, "
         "rooms and schemes, not \"%.60s\"%s%s",
         word, found ? "; did you mean " : "", found ? found : "");
-}
-
-/* Returns true if a word means a file: a scene of the program has precedence over a file, unless it is
-   built on it. */
-static bool find_file(enum gm_file_kind kind, const char *word, struct gm_file *file)
-{
-    return gm_file_find(kind, word, file) && (file->built_in || !gm_scene_find(word));
 }
 
 static int list_source(const struct gm_options *options, const char *word)

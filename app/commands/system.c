@@ -437,7 +437,32 @@ static void print_fact(struct gm_row *unused, const char *word, const char *of, 
     gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
 }
 
-/* Calls `put` for every part that has a name, with the way in which its flow is computed. */
+/* The rates of a part as equations, without those that are 0; parameters have their values. */
+static const char *part_equations(const struct report *report, const char *part)
+{
+    const struct gm_problem *problem = &report->problem;
+    const struct gm_naming names = gm_system_naming(&report->system),
+                           naming = {.variable = names.variable, .data = names.data};
+    struct gm_formula *graph = gm_arena_take(report->arena, 1, sizeof *graph);
+    gm_node_id *rates = gm_arena_take(report->arena, problem->n + 1, sizeof *rates);
+    const size_t most = 160; /* letters, after which the others are left out */
+    const char *text = "";
+    gm_formula_open(graph);
+    gm_arena_keep(report->arena, graph, gm_formula_close);
+    gm_ode_of(problem)->parts->rates(report->arena, problem, part, graph, rates);
+    for (size_t i = 0; i < report->system.n && strlen(text) < most; i++) {
+        char *rate = gm_is_constant(graph, rates[i], 0) ? NULL : gm_formula_text(graph, rates[i], &naming);
+        if (rate) {
+            text = gm_arena_print(report->arena, "%s%s %s' = %s", text, text[0] ? "," : "",
+                                  report->system.variables[i].name, rate);
+        }
+        free(rate);
+    }
+    return strlen(text) < most ? text[0] ? text : " which is 0 here"
+                               : gm_arena_print(report->arena, "%.*s ...", (int)most, text);
+}
+
+/* Calls `put` for every part that has a name, with the way in which its flow is computed, and its equations. */
 static void each_part(const struct report *report,
                       void (*put)(struct gm_row *row, const char *name, const char *flow), struct gm_row *row)
 {
@@ -445,7 +470,9 @@ static void each_part(const struct report *report,
     for (const char *const *name = ode && ode->parts ? ode->parts->names : NULL; name && *name; name++) {
         const char *flow = gm_part_flow(&report->problem, *name);
         if (flow || (size_t)(name - ode->parts->names) < ode->parts->given) {
-            put(row, *name, flow ? flow : "no flow of its own: a scheme moves it");
+            put(row, *name,
+                gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
+                               part_equations(report, *name)));
         }
     }
 }
@@ -454,6 +481,14 @@ static void print_part(struct gm_row *unused, const char *name, const char *flow
 {
     (void)unused;
     gm_print_wrapped(flow, printf("  %-16s ", name), 19);
+}
+
+static void print_parts(const struct report *report)
+{
+    if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
+        printf("\nparts\n");
+        each_part(report, print_part, NULL);
+    }
 }
 
 static void print_facts(const struct report *report)
@@ -1049,6 +1084,26 @@ static int list_forms(const struct gm_options *options, struct report *report)
     return gm_finish(GM_EXIT_OK);
 }
 
+/* Opens the problem and derives what is printed. */
+static void open_problem(struct report *report)
+{
+    const double *start = start_of(report);
+    const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
+    /* a check without memory does not count as unchecked */
+    gm_arena_need(report->arena, opened && !gm_memory_was_short());
+    tidy_all(report);
+}
+
+void gm_list_structure(const struct gm_options *options, const struct gm_file *file)
+{
+    struct report *report = open_report(options, file);
+    if (!gm_system_is_form(&report->system)) {
+        open_problem(report);
+        print_facts(report);
+        print_parts(report);
+    }
+}
+
 int gm_list_system(const struct gm_options *options, const struct gm_file *file)
 {
     struct report *report = open_report(options, file);
@@ -1059,11 +1114,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
     if (options->invariants) {
         return list_invariants(options, report);
     }
-    const double *start = start_of(report);
-    const bool opened = (gm_system_is_field(&report->system) ? open_field : open_equations)(report, start);
-    /* a check without memory does not count as unchecked */
-    gm_arena_need(options->arena, opened && !gm_memory_was_short());
-    tidy_all(report);
+    open_problem(report);
     list_equations(report, options->latex);
     if (options->json) {
         print_json(report, file);
@@ -1076,10 +1127,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
         print_kept(report);
         if (options->longer) {
             print_facts(report);
-            if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
-                printf("\nparts\n");
-                each_part(report, print_part, NULL);
-            }
+            print_parts(report);
             print_schemes(report);
         }
     }
