@@ -751,21 +751,35 @@ void gm_written_close(void *written)
 char *gm_written_word(struct gm_arena *arena, const struct gm_written_scheme *scheme, const char *title,
                       const char *const schemes[GM_SCHEME_WORDS])
 {
-    char *text = gm_arena_print(arena, "%s(", kinds[scheme->kind].name);
-    text = title ? gm_arena_print(arena, "%stitle: %s; ", text, title) : text;
+    const char *base = schemes[GM_SCHEME_WORD_BASE];
+    const bool called = scheme->kind == GM_WRITTEN_CALLED && !strchr(base, '(');
+    const int positional = called ? 1 : kinds[scheme->kind].count;
+    bool written[GM_SCHEME_WORDS] = {[GM_SCHEME_WORD_BASE] = called};
+    char *text = gm_arena_print(arena, "%s(", called ? base : kinds[scheme->kind].name);
+    for (int pass = 0; pass < 2; pass++) { /* the lines that need no name, then the others */
+        for (int i = 0; i < (pass ? GM_SCHEME_WORDS : positional); i++) {
+            const enum gm_scheme_word word =
+                pass ? (enum gm_scheme_word)i : kinds[scheme->kind].positional[i];
+            const struct gm_written_line *line = &scheme->lines[word];
+            if (!line->said && !pass) {
+                break;
+            }
+            if (!line->said || written[word] || word < GM_SCHEME_WORD_ORDER) {
+                continue;
+            }
+            const char *value = holds[word] == SCHEME
+                                    ? schemes[word]
+                                    : gm_arena_keep(arena, gm_span_words(scheme->text, line->value), free);
+            text = gm_arena_print(arena, "%s%s%s%s; ", text, pass ? words[word].word : "", pass ? ": " : "",
+                                  value);
+            written[word] = true;
+        }
+    }
     for (int i = 0; i < scheme->let_count; i++) {
         const char *let = gm_arena_keep(arena, gm_span_words(scheme->text, scheme->lets[i]), free);
         text = gm_arena_print(arena, "%slet: %s; ", text, let);
     }
-    for (enum gm_scheme_word word = GM_SCHEME_WORD_ORDER; word < GM_SCHEME_WORDS; word++) {
-        const struct gm_written_line *line = &scheme->lines[word];
-        if (line->said) {
-            const char *value = holds[word] == SCHEME
-                                    ? schemes[word]
-                                    : gm_arena_keep(arena, gm_span_words(scheme->text, line->value), free);
-            text = gm_arena_print(arena, "%s%s: %s; ", text, words[word].word, value);
-        }
-    }
+    text = title ? gm_arena_print(arena, "%stitle: %s; ", text, title) : text;
     strcpy(text + strlen(text) - 2, ")"); /* instead of the last semicolon */
     return text;
 }

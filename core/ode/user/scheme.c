@@ -946,7 +946,8 @@ static void tell(const struct making *making, struct own *self, const char *name
     row->title = own_title->said ? words_of(making, own_title->value)
                  : title         ? gm_arena_print(making->arena, "%s", title)
                                  : title_of(making);
-    row->formula = row->word = gm_written_word(making->arena, making->written, row->title, words);
+    row->formula = row->word =
+        gm_written_word(making->arena, making->written, own_title->said || title ? row->title : NULL, words);
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
