@@ -130,8 +130,9 @@ static bool is_interrupted(void)
 
 /* A movie needs the same buffers for every frame. The process retains freed memory, up to a few frames'
    worth: fetching it from the system page by page takes a seventh of a frame's time. The first 31 MB use
-   huge pages if the system has them: pages of 4 KB cost a sixth of the time of one picture. */
-static void keep_buffers(void)
+   huge pages if the system has them: pages of 4 KB cost a sixth of the time of one picture. What paints nothing uses
+   them after `small` bytes: a short run needs less, and one huge page costs it more than all of its own. */
+static void keep_buffers(size_t small)
 {
     static const size_t huge = (size_t)2 << 20, room = (size_t)31 << 20;
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -139,7 +140,7 @@ static void keep_buffers(void)
     /* the end of the heap, to which the block is freed */
     void *block = gm_address_space_is_limited() ? NULL : malloc(room);
     if (block) {
-        const uintptr_t first = ((uintptr_t)block + huge - 1) / huge * huge;
+        const uintptr_t first = ((uintptr_t)block + small + huge - 1) / huge * huge;
         madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);
         free(block);
     } else {
@@ -164,7 +165,6 @@ static void obey(struct gm_arena *arena, void *data)
 
 static int run(int argc, char *argv[])
 {
-    keep_buffers();
     setlocale(LC_CTYPE, "");
     /* the writers handle a broken pipe and a full disk */
     signal(SIGPIPE, SIG_IGN);
@@ -197,6 +197,7 @@ static int run(int argc, char *argv[])
             return help_of(command);
         }
     }
+    keep_buffers(command->bit & GM_PAINTS ? 0 : (size_t)1 << 20);
     char message[GM_MESSAGE];
     struct running running = {.command = command, .status = GM_EXIT_USAGE};
     struct gm_options *options = &running.options;

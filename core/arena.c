@@ -190,6 +190,12 @@ void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size)
     return entry ? add(arena, entry)->block : refused(arena);
 }
 
+void *gm_arena_take_unset(struct gm_arena *arena, size_t count, size_t size)
+{
+    void *block = gm_arena_take(arena, 0, size);
+    return block ? gm_arena_resize(arena, block, count, size) : NULL;
+}
+
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size)
 {
     if (!block) {

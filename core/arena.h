@@ -30,6 +30,8 @@ const char *gm_arena_reason(const struct gm_arena *arena);
 
 /* Returns zeros. Inside a body it never returns NULL, outside of one NULL when out of memory. */
 void *gm_arena_take(struct gm_arena *arena, size_t count, size_t size);
+/* The same without zeros: the pages of a large array are not touched before they are needed. */
+void *gm_arena_take_unset(struct gm_arena *arena, size_t count, size_t size);
 /* A block that was taken (or NULL), with another size; what is new is not set. */
 void *gm_arena_resize(struct gm_arena *arena, void *block, size_t count, size_t size);
 /* An array of the arena (or NULL) with room for one more than its `count` elements: it doubles when it is full. */

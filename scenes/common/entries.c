@@ -85,9 +85,9 @@ void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const s
         behind->state = gm_arena_take(arena, 4 * gm_active_count(view->problem), sizeof *behind->state);
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
-    entries->times = gm_arena_take(arena, track->bound, sizeof *entries->times);
-    entries->steps = gm_arena_take(arena, track->bound, sizeof *entries->steps);
-    entries->values = gm_arena_take(arena, track->bound * entries->width, sizeof *entries->values);
+    entries->times = gm_arena_take_unset(arena, track->bound, sizeof *entries->times);
+    entries->steps = gm_arena_take_unset(arena, track->bound, sizeof *entries->steps);
+    entries->values = gm_arena_take_unset(arena, track->bound * entries->width, sizeof *entries->values);
     entries->before = gm_arena_take(arena, entries->sections, sizeof *entries->before);
     forget_before(entries);
 }
@@ -336,7 +336,7 @@ void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, c
 void gm_history_open(struct gm_arena *arena, struct gm_history *history, size_t series)
 {
     *history = (struct gm_history){.series = series, .per_bin = 1};
-    history->bins = gm_arena_take(arena, GM_HISTORY_BINS * series, sizeof *history->bins);
+    history->bins = gm_arena_take_unset(arena, GM_HISTORY_BINS * series, sizeof *history->bins);
 }
 
 static void merge_pairs(struct gm_history *history)
