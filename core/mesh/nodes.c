@@ -40,33 +40,23 @@ void gm_nodes_add(const struct gm_assembly *assembly, struct gm_places row, stru
 void gm_nodes_add_column(const struct gm_assembly *assembly, struct gm_places row, size_t column,
                          double factor, const double values[4])
 {
-    const size_t e = assembly->element, after = e * assembly->per_node + column;
-    size_t a[4], i[4];
-    const size_t rows = locate(assembly, row, a, i);
-    for (size_t r = 0; r < rows; r++) {
-        if (e > 0) {
-            gm_banded_add(assembly->matrix, i[r], after - assembly->per_node, factor * values[a[r]]);
-        }
-        if (e < assembly->points) {
-            gm_banded_add(assembly->matrix, i[r], after, -factor * values[a[r]]);
-        }
+    double block[4][4];
+    for (size_t a = 0; a < 4; a++) {
+        block[a][1] = factor * values[a];
+        block[a][3] = -factor * values[a];
     }
+    gm_nodes_add(assembly, row, (struct gm_places){GM_NOWHERE, column}, block);
 }
 
 void gm_nodes_add_row(const struct gm_assembly *assembly, size_t row, struct gm_places column,
                       const double values[4])
 {
-    const size_t e = assembly->element, after = e * assembly->per_node + row;
-    size_t b[4], j[4];
-    const size_t columns = locate(assembly, column, b, j);
-    for (size_t c = 0; c < columns; c++) {
-        if (e > 0) {
-            gm_banded_add(assembly->matrix, after - assembly->per_node, j[c], values[b[c]]);
-        }
-        if (e < assembly->points) {
-            gm_banded_add(assembly->matrix, after, j[c], -values[b[c]]);
-        }
+    double block[4][4];
+    for (size_t b = 0; b < 4; b++) {
+        block[1][b] = values[b];
+        block[3][b] = -values[b];
     }
+    gm_nodes_add(assembly, (struct gm_places){GM_NOWHERE, row}, column, block);
 }
 
 void gm_nodes_spread(const double *unknowns, size_t points, size_t per_node, size_t unknown, double *share)
@@ -163,41 +153,6 @@ bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix,
         const double *rate = stage->v, *left = stage->gradient[0], *right = stage->gradient[2];
         motion[k - 1] =
             left[k - 1] * rate[k - 1] + right[k - 1] * rate[k] - left[k] * rate[k] - right[k] * rate[k + 1];
-    }
-    if (!gm_banded_factor(matrix)) {
-        return false;
-    }
-    gm_banded_solve(matrix, motion);
-    return true;
-}
-
-bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix, size_t unknowns,
-                      double *motion)
-{
-    const size_t points = stage->count - 1;
-    const struct gm_places momenta = {0, unknowns > 2 ? 1 : GM_NOWHERE},
-                           velocities = {0, unknowns > 1 ? 1 : GM_NOWHERE};
-    gm_banded_clear(matrix);
-    for (size_t e = 0; e <= points; e++) {
-        const struct gm_assembly assembly = {matrix, points, unknowns, e};
-        double mass[4][4], gradient[4];
-        gm_elements_mass(stage, e, mass);
-        gm_elements_gradient(stage, e, gradient);
-        gm_nodes_add(&assembly, momenta, velocities, mass);
-        for (size_t side = 0; unknowns == 1 && side < 2; side++) {
-            if (e + side > 0 && e + side <= points) {
-                motion[e + side - 1] -= mass[2 * side][1] * stage->v[e] + mass[2 * side][3] * stage->v[e + 1];
-            }
-        }
-        if (unknowns > 1) {
-            gm_nodes_add_row(&assembly, unknowns - 1, velocities, gradient);
-        }
-        if (unknowns > 2) {
-            gm_nodes_add_column(&assembly, momenta, 2, 1, gradient);
-        }
-    }
-    for (size_t k = 1; k <= points && unknowns > 1; k++) {
-        motion[unknowns * k - 1] = 0;
     }
     if (!gm_banded_factor(matrix)) {
         return false;

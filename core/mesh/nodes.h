@@ -54,13 +54,4 @@ bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *me
 /* Computes the nodes' velocities, motion[N], that preserve the constraint. Returns false if singular. */
 bool gm_nodes_set_in_motion(struct gm_elements *stage, struct gm_banded *matrix, double *motion);
 
-/* Velocities of momenta: `motion` holds p by node, with `unknowns` numbers each, and receives
-       3:  u, V, lambda   of M (u, V) + Dg^T lambda = p,  Dg (u, V) = 0
-       2:  u, V           of the same if p has no part in X, which Dg (u, V) = 0 alone determines
-       1:  u              of M_yy u + M_yX V = p on a mesh with the velocity stage->v
-   `stage` has been evaluated and constrained; the matrix has the band 2 * unknowns - 1. Returns false if it
-   is singular. */
-bool gm_nodes_project(const struct gm_elements *stage, struct gm_banded *matrix, size_t unknowns,
-                      double *motion);
-
 #endif

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
+
 enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
 static const double tolerance = 1e-11; /* change of unknowns, when solved */
@@ -36,23 +38,18 @@ static double stagnation(const struct gm_mesh_solver *solver)
     return fmax(1e-9, 10 * solver->noise);
 }
 
-static size_t stages_of(const struct gm_mesh_row *row)
+static struct gm_mesh mesh_of(const struct gm_problem *problem)
 {
-    return row->tableau ? row->tableau->stages : 1;
-}
-
-static const struct gm_mesh_strategy *strategy_of(const struct gm_mesh_row *row, const struct gm_mesh *mesh)
-{
-    return mesh->relax > 0 && row->strategy->relaxed ? row->strategy->relaxed : row->strategy;
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(problem)->describe(problem, &mesh);
+    return mesh;
 }
 
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_mesh_row *row = scheme->coefficients;
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(problem)->describe(problem, &mesh);
-    const size_t n = mesh.points * strategy_of(row, &mesh)->unknowns * stages_of(row);
-    return MEMORY_HEAD + (PAST + 1) * n + 4 * mesh.points;
+    const struct gm_mesh mesh = mesh_of(problem);
+    const size_t n = mesh.points * gm_mesh_layout_of(scheme->coefficients, &mesh).per_node;
+    return MEMORY_HEAD + (PAST + 1) * n + 4 * mesh.points + scheme->family->adaptive;
 }
 
 void gm_mesh_workspace_close(void *workspace)
@@ -76,18 +73,18 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
         return NULL;
     }
     const struct gm_mesh *mesh = &solver->mesh;
-    gm_moving_mesh_of(problem)->describe(problem, &solver->mesh);
+    solver->mesh = mesh_of(problem);
     solver->row = scheme->coefficients;
-    solver->strategy = strategy_of(solver->row, mesh);
-    solver->mesh.cell = solver->strategy->free ? mesh->cell : NULL;
-    solver->stages = stages_of(solver->row);
-    solver->per_node = solver->strategy->unknowns * solver->stages;
-    const size_t points = mesh->points, n = points * solver->per_node, moves = solver->strategy->projected;
+    solver->of = gm_mesh_layout_of(solver->row, mesh);
+    solver->kind = solver->of.smoothed ? GM_MESH_FREE : solver->row->kind;
+    solver->mesh.cell = solver->row->kind == GM_MESH_FREE ? mesh->cell : NULL;
+    solver->stages = solver->row->tableau->stages;
+    const size_t points = mesh->points, n = points * solver->of.per_node, moves = solver->of.projected;
     bool good = gm_elements_open(&solver->ends, mesh);
     for (size_t i = 0; i < solver->stages; i++) {
         good = good && gm_elements_open(&solver->stage[i], mesh);
     }
-    good = good && gm_banded_open(&solver->matrix, n, 2 * solver->per_node - 1) &&
+    good = good && gm_banded_open(&solver->matrix, n, 2 * solver->of.per_node - 1) &&
            gm_banded_open(&solver->projection, moves * points, 2 * moves - 1) &&
            gm_banded_open(&solver->places, points, 1);
     double *next = calloc(3 * n + 10 * points + 1 + solver->stages * (3 * points + 1), sizeof *next);
@@ -115,24 +112,33 @@ void gm_mesh_workspace_reset(void *workspace)
     ((struct gm_mesh_solver *)workspace)->stamp = 0;
 }
 
+/* The density of steps of an adaptive scheme, which is 0 in a new run. */
+static double *density(const struct gm_task *task)
+{
+    return task->memory_out + gm_mesh_memory(task->problem, task->scheme) - 1;
+}
+
 enum gm_status gm_mesh_restart(const struct gm_task *task)
 {
     struct gm_mesh_solver *solver = task->workspace;
     memset(task->memory_out, 0, MEMORY_HEAD * sizeof *task->memory_out);
     solver->stamp = 0;
-    const enum gm_mesh_kind kind = solver->strategy->kind;
     solver->mesh.t = task->t;
-    return gm_mesh_carry(&solver->mesh, kind, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
+    if (task->scheme->family->adaptive) { /* a reversed run keeps it */
+        *density(task) = *density(task) > 0 ? *density(task) : 1;
+    }
+    return gm_mesh_carry(&solver->mesh, solver->kind, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
 }
 
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme)
 {
-    return ((const struct gm_mesh_row *)scheme->coefficients)->strategy->kind;
+    return ((const struct gm_mesh_row *)scheme->coefficients)->kind;
 }
 
 bool gm_scheme_relaxes(const struct gm_scheme *scheme)
 {
-    return ((const struct gm_mesh_row *)scheme->coefficients)->strategy->relaxed != NULL;
+    return gm_scheme_mesh(scheme) == GM_MESH_MOVING &&
+           !((const struct gm_mesh_row *)scheme->coefficients)->multiplied;
 }
 
 double gm_mesh_multiplier_norm(const struct gm_run *run)
@@ -143,42 +149,6 @@ double gm_mesh_multiplier_norm(const struct gm_run *run)
 double gm_mesh_factorisations(const struct gm_run *run)
 {
     return gm_run_memory(run)[MEMORY_STAMP];
-}
-
-double gm_mesh_largest(const struct gm_mesh_solver *solver, size_t unknown)
-{
-    double largest = 0;
-    for (size_t k = 0; k < solver->mesh.points; k++) {
-        largest = fmax(largest, fabs(solver->unknowns[k * solver->per_node + unknown]));
-    }
-    return largest;
-}
-
-/* Takes the state that a step of this length starts from at time t. */
-static void place(struct gm_mesh_solver *solver, const double *state, double t, double h)
-{
-    solver->t = t;
-    solver->h = h;
-    solver->state = state;
-    gm_elements_place(&solver->ends, state);
-    gm_elements_evaluate(&solver->ends, &solver->mesh);
-    for (size_t k = 1; k <= solver->mesh.points; k++) {
-        solver->momenta[2 * k - 2] = gm_momentum_u(&solver->ends, k);
-        solver->momenta[2 * k - 1] = gm_momentum_v(&solver->ends, k);
-    }
-    for (size_t i = 0; i < solver->stages; i++) {
-        double c = 0;
-        for (size_t j = 0; solver->row->tableau && j < solver->stages; j++) {
-            c += solver->row->tableau->a[i][j];
-        }
-        gm_elements_place(&solver->stage[i], state);
-        gm_mesh_known(&solver->mesh, solver->strategy->kind, t + c * h, &solver->stage[i]);
-    }
-}
-
-static bool residual_at(struct gm_mesh_solver *solver, const double *unknowns)
-{
-    return solver->strategy->residual(solver, unknowns, solver->residual);
 }
 
 static double *past(double *memory, size_t n, size_t back)
@@ -193,7 +163,7 @@ static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t or
     const size_t n = solver->matrix.n;
     double *out = solver->unknowns, weight = -1;
     if (order == 0) {
-        solver->strategy->guess(solver, out);
+        gm_step_guess(solver, out);
         return;
     }
     memset(out, 0, n * sizeof *out);
@@ -212,8 +182,8 @@ static bool factor(struct gm_mesh_solver *solver)
     const size_t points = solver->mesh.points;
     gm_banded_clear(&solver->matrix);
     for (size_t e = 0; e <= points; e++) {
-        const struct gm_assembly assembly = {&solver->matrix, points, solver->per_node, e};
-        solver->strategy->jacobian(solver, &assembly);
+        const struct gm_assembly assembly = {&solver->matrix, points, solver->of.per_node, e};
+        gm_step_matrix(solver, &assembly);
     }
     return gm_banded_factor(&solver->matrix);
 }
@@ -237,8 +207,8 @@ static void restore(struct gm_mesh_solver *solver, double *memory)
 {
     if (memory[MEMORY_STAMP] != solver->stamp) {
         const double *made_from = past(memory, solver->matrix.n, PAST);
-        place(solver, made_from + solver->matrix.n, memory[MEMORY_TIME], memory[MEMORY_STEP]);
-        if (residual_at(solver, made_from) && factor(solver)) {
+        gm_step_place(solver, made_from + solver->matrix.n, memory[MEMORY_TIME], memory[MEMORY_STEP]);
+        if (gm_step_residual(solver, made_from) && factor(solver)) {
             solver->stamp = memory[MEMORY_STAMP];
         } else {
             memory[MEMORY_SLOW] = 1;
@@ -250,7 +220,7 @@ static void restore(struct gm_mesh_solver *solver, double *memory)
 static double move(struct gm_mesh_solver *solver, const double *change, double share)
 {
     double *unknowns = solver->unknowns, largest = 0, sum = 0;
-    const size_t width = solver->per_node;
+    const size_t width = solver->of.per_node;
     for (size_t k = 0; k < solver->mesh.points; k++) {
         for (size_t j = 0; j < width; j++) {
             const size_t i = k * width + j;
@@ -272,7 +242,7 @@ static enum outcome iterate(struct gm_mesh_solver *solver, double *memory, struc
     double before = INFINITY;
     for (int iteration = 1; iteration <= SIMPLIFIED; iteration++) {
         progress->evaluations++;
-        if (!residual_at(solver, solver->unknowns)) {
+        if (!gm_step_residual(solver, solver->unknowns)) {
             return TANGLED;
         }
         if (fresh) {
@@ -315,7 +285,7 @@ static enum outcome iterate_fully(struct gm_mesh_solver *solver, double *memory,
     const size_t n = solver->matrix.n;
     enum outcome failure = DIVERGED;
     progress->evaluations++;
-    if (!residual_at(solver, solver->unknowns)) {
+    if (!gm_step_residual(solver, solver->unknowns)) {
         return TANGLED;
     }
     double before = INFINITY;
@@ -334,7 +304,7 @@ static enum outcome iterate_fully(struct gm_mesh_solver *solver, double *memory,
                 return failure;
             }
             progress->evaluations++;
-            if (residual_at(solver, solver->unknowns)) {
+            if (gm_step_residual(solver, solver->unknowns)) {
                 if (share == 1 &&
                     (change < enough(solver) || (change > before / 2 && change < stagnation(solver)))) {
                     memory[MEMORY_SLOW] = 0;
@@ -370,7 +340,7 @@ static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const
 {
     const size_t known = (size_t)memory[MEMORY_PAST];
     restore(solver, memory);
-    place(solver, state, t, h);
+    gm_step_place(solver, state, t, h);
     extrapolate(solver, memory, known);
     enum outcome outcome = iterate(solver, memory, progress);
     bool tangled = false;
@@ -387,46 +357,67 @@ static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const
     }
     remember(solver, memory);
     progress->evaluations++;
-    return residual_at(solver, solver->unknowns) ? GM_OK : GM_MESH_CROSSING;
+    return gm_step_residual(solver, solver->unknowns) ? GM_OK : GM_MESH_CROSSING;
 }
 
 /* The end of the step, from the solved stages, into `state`, where its start is. */
 static enum gm_status finish(struct gm_mesh_solver *solver, double *state, double *multiplier, double limit)
 {
-    const size_t points = solver->mesh.points, moves = solver->strategy->projected;
-    const struct gm_elements *end = solver->strategy->end(solver, multiplier);
-    if (!end) {
-        return GM_MESH_CROSSING;
-    }
-    if (!solver->strategy->free && !gm_nodes_project(end, &solver->projection, moves, solver->motion)) {
-        return GM_NO_CONVERGENCE;
-    }
-    for (size_t k = 0; k < points; k++) {
-        state[k] = end->y[k + 1];
-        state[points + k] = end->x[k + 1];
-        state[2 * points + k] = solver->motion[moves * k];
-        state[3 * points + k] = moves > 1 ? solver->motion[moves * k + 1] : end->v[k + 1];
-    }
-    for (size_t i = 0; i < 4 * points; i++) {
-        if (!(fabs(state[i]) <= limit)) {
-            return GM_BLOW_UP;
+    const struct gm_elements *end = &solver->ends;
+    const double *const parts[] = {end->y, end->x, end->u, end->v};
+    const size_t points = solver->mesh.points;
+    const enum gm_status status = gm_step_end(solver, multiplier);
+    for (size_t part = 0; part < GM_COUNT(parts) && status == GM_OK; part++) {
+        for (size_t k = 1; k <= points; k++, state++) {
+            *state = parts[part][k];
+            if (!(fabs(*state) <= limit)) {
+                return GM_BLOW_UP;
+            }
         }
     }
-    return GM_OK;
+    return status;
+}
+
+/* Sets the tolerances of a step of this length. */
+static void scale(struct gm_mesh_solver *solver, double h)
+{
+    const struct gm_mesh_layout *of = &solver->of;
+    /* a single velocity to so many digits more that 200 steps are undone to 1e-11, and the local law is seen to 1e-11 */
+    const double sharp = of->stride == 0 ? 30 : 1;
+    solver->noise = DBL_EPSILON * solver->mesh.length / fabs(h);
+    for (size_t i = 0; i < of->per_node; i++) {
+        /* multipliers of constraints on places carry round-off divided by the squared step */
+        solver->weights[i] = sharp * (of->multiplier > 0 && i >= of->multiplier ? fabs(h) : 1);
+    }
+}
+
+/* The rate of log sigma of time-symmetric steps (core/mesh/families/adaptive.c). */
+static double growth(const struct gm_mesh *mesh, const double *state)
+{
+    const size_t points = mesh->points;
+    const double *x = state + points, *v = state + 3 * points;
+    const double coarse = 0.208 * mesh->length / (double)(points + 1);
+    double x0 = mesh->first, v0 = 0, sum = pow(coarse, -4), change = 0;
+    for (size_t e = 0; e <= points; e++) {
+        const double x1 = e < points ? x[e] : mesh->first + mesh->length, v1 = e < points ? v[e] : 0;
+        const double d = x1 - x0, weight = 1 / (d * d * d * d);
+        sum += weight;
+        change -= weight * (v1 - v0) / d;
+        x0 = x1;
+        v0 = v1;
+    }
+    return change / (2 * sum);
 }
 
 struct gm_progress gm_mesh_loop(const struct gm_task *task)
 {
     struct gm_mesh_solver *solver = task->workspace;
-    const struct gm_mesh_strategy *strategy = solver->strategy;
     const struct gm_mesh *mesh = &solver->mesh;
+    const bool adaptive = task->scheme->family->adaptive;
     const size_t size = mesh->points * sizeof(double);
-    double *memory = task->memory_out, *state = mesh->alone ? solver->whole : task->out;
-    struct gm_progress progress = {.status = GM_OK};
-    solver->noise = DBL_EPSILON * solver->mesh.length / fabs(task->dt);
-    for (size_t i = 0; i < solver->per_node; i++) {
-        solver->weights[i] = strategy->weight ? strategy->weight(solver->stages, i, fabs(task->dt)) : 1;
-    }
+    double *memory = task->memory_out, *state = mesh->alone ? solver->whole : task->out,
+           *rho = adaptive ? density(task) : NULL;
+    struct gm_progress progress = {.status = GM_OK, .t = task->t};
     if (task->out != task->y) {
         memcpy(task->out, task->y, task->problem->n * sizeof *state);
         memcpy(memory, task->memory, gm_mesh_memory(task->problem, task->scheme) * sizeof *memory);
@@ -436,14 +427,24 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
         memcpy(state + mesh->points, task->out, size);
         memcpy(state + 3 * mesh->points, task->out + mesh->points, size);
     }
-    while (progress.done < task->steps) {
-        const double t = task->t0 + (double)(task->n + progress.done) * task->dt;
-        progress.status = solve(solver, memory, state, t, task->dt, &progress);
+    while (progress.done < task->steps && (!adaptive || progress.t < task->until)) {
+        const double half = adaptive ? *rho + task->dt / 2 * growth(mesh, state) : 1, h = task->dt / half,
+                     t = task->t0 + (double)(task->n + progress.done) * task->dt;
+        if (!(half > 1e-3 && half < 1e3)) {
+            progress.status = GM_STEP_COLLAPSE;
+            break;
+        }
+        scale(solver, h);
+        progress.status = solve(solver, memory, state, t, h, &progress);
         if (progress.status == GM_OK) {
             progress.status = finish(solver, state, &memory[MEMORY_MULTIPLIER], task->limit);
         }
         if (progress.status != GM_OK) {
             break;
+        }
+        if (adaptive) {
+            *rho = half + task->dt / 2 * growth(mesh, state);
+            progress.t += h;
         }
         progress.done++;
     }

@@ -657,7 +657,8 @@ static void wrong_rows_are_caught(void **unused)
     /* a wrong digit among the coefficients */
     struct gm_mesh_tableau tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-4;
-    struct gm_mesh_row digit = gm_mesh_multiplier4;
+    struct gm_mesh_row digit =
+        *(const struct gm_mesh_row *)gm_scheme_find("multiplier-lobatto4")->coefficients;
     digit.tableau = &tableau;
     wrong = *gm_scheme_find("multiplier-lobatto4");
     wrong.coefficients = &digit;

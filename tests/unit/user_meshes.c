@@ -344,7 +344,7 @@ static struct gm_scheme with_a_wrong_digit(void)
     static struct gm_mesh_row digit;
     tableau = gm_tableau_lobatto4;
     tableau.abar[2][1] += 1e-3;
-    digit = gm_mesh_multiplier4;
+    digit = *(const struct gm_mesh_row *)gm_scheme_find("multiplier-lobatto4")->coefficients;
     digit.tableau = &tableau;
     struct gm_scheme wrong = *gm_scheme_find("multiplier-lobatto4");
     wrong.coefficients = &digit;

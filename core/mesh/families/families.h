@@ -10,18 +10,11 @@
 #include "core/mesh/families/families.def"
 #undef GM_FAMILY
 
-/* The mesh held by multipliers at the stages. */
-extern const struct gm_mesh_strategy gm_mesh_multiplied;
-/* The same with the stages of Lobatto's order 4. */
-extern const struct gm_mesh_row gm_mesh_multiplier4;
-
 /* The common fields of all families; each adds only its array of schemes. */
 #define GM_MESH_FAMILY                                                                                       \
     .kind = &gm_kind_mesh, .schemes = schemes, .count = GM_COUNT(schemes),                                   \
     .workspace_open = gm_mesh_workspace_open, .workspace_close = gm_mesh_workspace_close,                    \
-    .workspace_reset = gm_mesh_workspace_reset
-/* Fields of families with a fixed step size. */
-#define GM_MESH_FAMILY_OF_STEPS                                                                              \
-    GM_MESH_FAMILY, .memory = gm_mesh_memory, .start = gm_mesh_restart, .loop = gm_mesh_loop
+    .workspace_reset = gm_mesh_workspace_reset, .memory = gm_mesh_memory, .start = gm_mesh_restart,          \
+    .loop = gm_mesh_loop
 
 #endif
