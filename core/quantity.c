@@ -8,8 +8,9 @@
 #include "core/kind.h"
 #include "core/run.h"
 
-static void nodes(const struct gm_run *run, double *values)
+static void nodes(const struct gm_run *run, size_t first, double *values)
 {
+    (void)first;
     const struct gm_grid1 *grid = &run->problem->line;
     for (size_t i = 0; i < gm_grid1_seen(grid); i++) {
         values[i] = gm_grid1_node(grid, i);
@@ -32,12 +33,13 @@ size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities)
     return run->problem->kind->quantities(run, quantities);
 }
 
-size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities)
+size_t gm_quantities_beside_time(const struct gm_run *run, bool pictures, struct gm_quantity *quantities)
 {
     const size_t all = gm_quantities(run, quantities);
     size_t count = 0;
     for (size_t i = 0; i < all; i++) {
-        if (strcmp(quantities[i].name, "t") != 0) {
+        if (strcmp(quantities[i].name, "t") != 0 &&
+            quantities[i].use != (pictures ? GM_FOR_TABLES : GM_FOR_PICTURES)) {
             quantities[count++] = quantities[i];
         }
     }
@@ -87,6 +89,6 @@ const double *gm_quantity_values(const struct gm_run *run, const struct gm_quant
     if (!quantity->derive) {
         return gm_run_state(run) + quantity->first * run->problem->m;
     }
-    quantity->derive(run, scratch);
+    quantity->derive(run, quantity->first, scratch);
     return scratch;
 }

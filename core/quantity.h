@@ -17,11 +17,12 @@ enum gm_support {
     GM_ON_TRACERS, /* passive particles */
     GM_ON_NODES,   /* points of a grid, nodes or vertices of a mesh */
     GM_ON_CELLS,   /* triangles */
+    GM_ON_EDGES,   /* edges of triangles */
 };
 
 /* An array of the shape (count, members, width): without the first axis on GM_ON_RUN, the second if m is
    1, the third if width is 1. If `derive` is NULL, the values are the state's `count` components from
-   `first` on. */
+   `first` on; else `first` is its argument. */
 struct gm_quantity {
     char name[32];
     enum gm_support support;
@@ -31,14 +32,19 @@ struct gm_quantity {
     double period[2]; /* periods of the coordinates x and y; 0: not periodic */
     bool fixed;       /* the same at all times */
     bool whole;       /* whole numbers */
-    void (*derive)(const struct gm_run *run, double *values);
+    enum {
+        GM_FOR_ALL,
+        GM_FOR_TABLES,
+        GM_FOR_PICTURES
+    } use; /* in all files, or not in those for VTK, or in those alone */
+    void (*derive)(const struct gm_run *run, size_t first, double *values);
 };
 
 /* The nodes of the problem's line, as far as they are visible: a quantity that is constant in time and
    comes first. */
 struct gm_quantity gm_quantity_grid(const struct gm_run *run);
 
-enum { GM_QUANTITIES = 16 /* most of a kind */, GM_QUANTITY_AXES = 3 };
+enum { GM_QUANTITIES = 24 /* most of a kind */, GM_QUANTITY_AXES = 3 };
 
 /* The quantities of a run's states, into an array of GM_QUANTITIES. Returns their number. They stay valid
    with the run. */
@@ -49,8 +55,9 @@ size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 #include "core/kinds.def"
 #undef GM_KIND
 
-/* The quantities without a system's time, for rows that have their own. Returns their number. */
-size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
+/* The quantities of a file of tables or of pictures, without a system's time, for rows that have their own. Returns
+   their number. */
+size_t gm_quantities_beside_time(const struct gm_run *run, bool pictures, struct gm_quantity *quantities);
 
 /* The name of a component of a run's state, "q1", or "x[3]" of a list. In a body of the arena. */
 const char *gm_component_name(struct gm_arena *arena, const struct gm_run *run, size_t component);

@@ -137,7 +137,7 @@ static void name_quantities(struct gm_arena *arena, struct gm_handle_lane *lane)
 {
     const struct gm_run *run = lane->drive.lane->run;
     struct gm_quantity found[GM_QUANTITIES];
-    const size_t count = gm_quantities_beside_time(run, found);
+    const size_t count = gm_quantities_beside_time(run, false, found);
     size_t most = 0;
     for (int fixed = 0; fixed < 2; fixed++) {
         for (size_t i = 0; i < count; i++) {

@@ -548,10 +548,8 @@ static void put_formula(struct gm_row *row, const char *key, const struct report
     gm_row_text(row, key, formula_of(report, node, false));
 }
 
-static void put_values(struct gm_row *row, const struct report *report)
+static void put_parameters(struct gm_row *row, const struct gm_user_system *system)
 {
-    const struct gm_user_system *system = &report->system;
-    const double *start = start_of(report);
     struct gm_row parameters = gm_row_open(row, "parameters", '}');
     for (size_t i = 0; i < system->choices.count; i++) {
         const struct gm_written_choice *choice = &system->choices.list[i];
@@ -561,6 +559,13 @@ static void put_values(struct gm_row *row, const struct report *report)
         gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
     }
     gm_row_close(&parameters);
+}
+
+static void put_values(struct gm_row *row, const struct report *report)
+{
+    const struct gm_user_system *system = &report->system;
+    const double *start = start_of(report);
+    put_parameters(row, system);
     struct gm_row starts = gm_row_open(row, "start", '}');
     if (system->drift != GM_NO_NODE) {
         put_formula(&starts, "X_t", report, system->drift);
@@ -1012,74 +1017,224 @@ static int list_invariants(const struct gm_options *options, struct report *repo
     return gm_finish(GM_EXIT_OK);
 }
 
-/* Prints the mesh, and which invariants the equations on it keep. */
-static void print_mesh(struct report *report, const struct gm_form_model *model)
+/* A listed system of forms. */
+struct listed_forms {
+    struct report *report;
+    struct gm_form_model model;
+    struct gm_problem problem; /* parameters NULL: its mesh is a file, or cannot be made */
+    struct gm_form_factor factors[GM_FORM_FACTORS];
+    size_t factor_count;
+};
+
+static void close_listed(void *listed)
 {
-    const struct gm_user_system *system = &report->system;
-    const struct gm_form_choice choice = {(enum gm_star)gm_system_chosen(system, GM_WORD_STAR),
-                                          (enum gm_interior)gm_system_chosen(system, GM_WORD_INTERIOR)};
-    struct gm_fault fault;
-    struct gm_problem problem;
-    double *values = gm_equations_start(system, NULL);
-    if (!values || !gm_form_problem_open(&problem, model, choice, values, &fault)) {
-        free(values);
-        return;
+    gm_form_problem_close(&((struct listed_forms *)listed)->problem);
+}
+
+/* A form, or what is observed: its name, the word of its line, its type, and that of the equation of an unknown. */
+struct listed_form {
+    const char *name, *word, *type, *equation;
+};
+
+/* Row number `i` of all; false after the last. */
+static bool listed_form(const struct listed_forms *listed, size_t i, struct listed_form *form)
+{
+    const struct gm_form_model *model = &listed->model;
+    const struct gm_user_system *system = model->system;
+    if (i < system->n) {
+        const struct gm_form_declared *declared = &system->forms[i];
+        *form = (struct listed_form){
+            system->variables[i].name, declared->unknown ? "unknown" : "field",
+            gm_form_type_text((struct gm_form_type){declared->degree, declared->dual}), NULL};
+        for (size_t k = 0; k < model->unknown_count; k++) {
+            if (model->unknowns[k] == i) {
+                form->equation = gm_form_type_text(model->equation_types[k]);
+            }
+        }
+        return true;
     }
-    const struct gm_complex *complex = gm_form_space_of(&problem)->complex;
+    if (i - system->n >= model->observed_count) {
+        return false;
+    }
+    const struct gm_system_item *item = &system->items[model->observed_item[i - system->n]];
+    *form = (struct listed_form){
+        item->name,
+        item->word == GM_WORD_LET         ? "let"
+        : item->word == GM_WORD_INVARIANT ? "invariant"
+                                          : "observe",
+        gm_form_type_text(model->observed.steps[model->observed.roots[i - system->n]].type), NULL};
+    return true;
+}
+
+/* Calls `take` for each invariant, with its rate along the equations. */
+static void each_drift(const struct listed_forms *listed,
+                       void (*take)(const char *name, double drift, void *data), void *data)
+{
+    const struct gm_form_model *model = &listed->model;
+    for (size_t i = 0; i < model->observed_count; i++) {
+        const struct gm_system_item *item = &model->system->items[model->observed_item[i]];
+        if (item->word == GM_WORD_INVARIANT) {
+            take(item->name, gm_form_drift(&listed->problem, i), data);
+        }
+    }
+}
+
+static const double kept_below = 1e-10; /* a rate that is round-off */
+
+static void print_drift(const char *name, double drift, void *data)
+{
+    (void)data;
+    printf("%s: %s (its rate along them is %.1e of it, at a random state)\n", name,
+           drift < kept_below ? "the equations on this mesh keep it" : "the equations on this mesh change it",
+           drift);
+}
+
+static void put_drift(const char *name, double drift, void *data)
+{
+    struct gm_row one = gm_row_open(data, NULL, '}');
+    gm_row_put(&one, "name %s, kept %d, rate %.17g", name, drift < kept_below, drift);
+    gm_row_close(&one);
+}
+
+static void print_mesh(const struct listed_forms *listed)
+{
+    const struct gm_complex *complex = gm_form_space_of(&listed->problem)->complex;
     printf("\nmesh: %zu vertices, %zu edges, %zu triangles; star %s; Betti numbers %ld %ld %ld\n",
            complex->vertices, complex->edges, complex->triangles,
            gm_system_choices(GM_WORD_STAR)[complex->star], gm_form_betti(complex, 0),
            gm_form_betti(complex, 1), gm_form_betti(complex, 2));
-    if (model->field_count > 0) {
-        printf("rates: %s\n", gm_ode_of(&problem)->stiff
+    if (listed->model.field_count > 0) {
+        printf("rates: %s\n", gm_ode_of(&listed->problem)->stiff
                                   ? "linear: implicit steps have one Jacobian, which is factorised once"
                                   : "not linear, or of unknowns");
     }
-    for (size_t i = 0; i < model->observed_count; i++) {
-        const struct gm_system_item *item = &system->items[model->observed_item[i]];
-        if (item->word == GM_WORD_INVARIANT) {
-            const double drift = gm_form_drift(&problem, i);
-            printf("%s: %s (its rate along them is %.1e of it, at a random state)\n", item->name,
-                   drift < 1e-10 ? "the equations on this mesh keep it"
-                                 : "the equations on this mesh change it",
-                   drift);
-        }
+    for (size_t i = 0; i < listed->factor_count; i++) {
+        const struct gm_form_factor *factor = &listed->factors[i];
+        printf("factor: %s, %s, %zu entries, %.3g MB\n", factor->matrix,
+               factor->symmetric ? "Cholesky" : "LU", factor->entries, factor->megabytes);
     }
-    gm_form_problem_close(&problem);
-    free(values);
+    each_drift(listed, print_drift, NULL);
 }
 
-/* Prints the type of every form and, with --long, how the fields split, and what the equations are made of. */
-static int list_forms(const struct gm_options *options, struct report *report)
+static void print_forms(const struct listed_forms *listed, bool longer)
+{
+    const struct gm_user_system *system = listed->model.system;
+    const size_t split = listed->model.split;
+    struct listed_form form;
+    print_texts(listed->report);
+    print_parameters(listed->report);
+    printf("\nforms\n");
+    for (size_t i = 0; listed_form(listed, i, &form); i++) {
+        const bool determined = longer && form.equation;
+        printf("  %-14s %s%s%s%s\n", form.name, form.type,
+               i >= system->n   ? ""
+               : !form.equation ? " that evolves"
+               : determined     ? " that its equation, "
+                                : " that its equation",
+               determined ? form.equation : "",
+               determined      ? ", determines"
+               : form.equation ? " determines"
+                               : "");
+    }
+    for (size_t i = 0; longer && i < system->n && split > 0; i++) {
+        printf("%s%s%s",
+               i == 0       ? "\nsplits: "
+               : i == split ? " | "
+                            : " ",
+               system->variables[i].name, i + 1 == system->n ? "\n" : "");
+    }
+    if (longer && listed->problem.parameters) {
+        print_mesh(listed);
+    }
+}
+
+static void put_mesh(struct gm_row *row, const struct listed_forms *listed)
+{
+    const struct gm_complex *complex = gm_form_space_of(&listed->problem)->complex;
+    struct gm_row mesh = gm_row_open(row, "mesh", '}');
+    gm_row_put(&mesh, "vertices %i, edges %i, triangles %i, star %s", (int)complex->vertices,
+               (int)complex->edges, (int)complex->triangles, gm_system_choices(GM_WORD_STAR)[complex->star]);
+    gm_row_list(&mesh, "betti",
+                (const double[]){(double)gm_form_betti(complex, 0), (double)gm_form_betti(complex, 1),
+                                 (double)gm_form_betti(complex, 2)},
+                3);
+    gm_row_close(&mesh);
+    struct gm_row list = gm_row_open(row, "factors", ']');
+    for (size_t i = 0; i < listed->factor_count; i++) {
+        const struct gm_form_factor *factor = &listed->factors[i];
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "matrix %s, symmetric %d, entries %i, megabytes %.17g", factor->matrix,
+                   factor->symmetric, (int)factor->entries, factor->megabytes);
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
+    list = gm_row_open(row, "invariants", ']');
+    each_drift(listed, put_drift, &list);
+    gm_row_close(&list);
+}
+
+static void put_forms(const struct listed_forms *listed, const struct gm_file *file)
+{
+    const struct gm_user_system *system = listed->model.system;
+    struct listed_form form;
+    struct gm_row row = gm_row_begin(stdout);
+    gm_row_put(&row, "title %s, kind %s, timed %d", gm_system_title(system) ? gm_system_title(system) : "",
+               "forms", system->timed);
+    put_parameters(&row, system);
+    struct gm_row list = gm_row_open(&row, "forms", ']');
+    for (size_t i = 0; listed_form(listed, i, &form); i++) {
+        struct gm_row one = gm_row_open(&list, NULL, '}');
+        gm_row_put(&one, "name %s, line %s, type %s", form.name, form.word, form.type + strlen("a "));
+        if (form.equation) {
+            gm_row_text(&one, "equation", form.equation + strlen("a "));
+        }
+        gm_row_close(&one);
+    }
+    gm_row_close(&list);
+    list = gm_row_open(&row, "splits", ']');
+    for (size_t i = 0; i < system->n && listed->model.split > 0;) {
+        struct gm_row group = gm_row_open(&list, NULL, ']');
+        for (const size_t end = i < listed->model.split ? listed->model.split : system->n; i < end; i++) {
+            gm_row_text(&group, NULL, system->variables[i].name);
+        }
+        gm_row_close(&group);
+    }
+    gm_row_close(&list);
+    if (listed->problem.parameters) {
+        if (listed->model.field_count > 0) {
+            gm_row_put(&row, "linear %d", gm_ode_of(&listed->problem)->stiff);
+        }
+        put_mesh(&row, listed);
+    }
+    gm_list_put_file(&row, file, system->source);
+    printf("}\n");
+}
+
+/* Lists the type of every form; with --long or --json also how the fields split, the mesh, the factors, and which
+   invariants the equations on it keep. */
+static int list_forms(const struct gm_options *options, struct report *report, const struct gm_file *file)
 {
     struct gm_user_system *system = &report->system;
-    struct gm_form_model model;
+    struct listed_forms *listed = gm_arena_take(options->arena, 1, sizeof *listed);
     struct gm_fault fault;
-    gm_command_end_if(options, options->json || options->latex || options->invariants, GM_EXIT_USAGE,
-                      "list of a system of forms has neither --json nor --latex nor --invariants");
-    if (!gm_form_model_open(&model, system, &fault)) {
+    gm_command_end_if(options, options->latex || options->invariants, GM_EXIT_USAGE,
+                      "list of a system of forms has neither --latex nor --invariants");
+    listed->report = report;
+    if (!gm_form_model_open(&listed->model, system, &fault)) {
         return gm_give_up(GM_EXIT_USAGE, "%s", fault.sentence[0] ? fault.sentence : "not enough memory");
     }
-    print_texts(report);
-    print_parameters(report);
-    printf("\nforms\n");
-    for (size_t i = 0; i < system->n; i++) {
-        const struct gm_form_declared *form = &system->forms[i];
-        printf("  %-14s %s that %s\n", system->variables[i].name,
-               gm_form_type_text((struct gm_form_type){form->degree, form->dual}),
-               form->unknown ? "its equation determines" : "evolves");
+    double *values = gm_arena_keep(options->arena, gm_equations_start(system, NULL), free);
+    const struct gm_form_choice choice = {(enum gm_star)gm_system_chosen(system, GM_WORD_STAR),
+                                          (enum gm_interior)gm_system_chosen(system, GM_WORD_INTERIOR)};
+    if ((options->longer || options->json) && !gm_form_reads_mesh(system) &&
+        gm_form_problem_open(&listed->problem, &listed->model, choice, values, &fault)) {
+        gm_arena_keep(options->arena, listed, close_listed);
+        listed->factor_count = gm_form_factors(&listed->problem, listed->factors);
     }
-    for (size_t i = 0; i < model.observed_count; i++) {
-        const struct gm_system_item *item = &system->items[model.observed_item[i]];
-        printf("  %-14s %s\n", item->name,
-               gm_form_type_text(model.observed.steps[model.observed.roots[i]].type));
-    }
-    for (size_t i = 0; options->longer && i < system->n && model.split > 0; i++) {
-        printf("%s%s", i == 0 ? "\nsplits: " : i == model.split ? " | " : " ", system->variables[i].name);
-    }
-    printf("%s", options->longer && model.split > 0 ? "\n" : "");
-    if (options->longer && !gm_form_reads_mesh(system)) {
-        print_mesh(report, &model);
+    if (options->json) {
+        put_forms(listed, file);
+    } else {
+        print_forms(listed, options->longer);
     }
     return gm_finish(GM_EXIT_OK);
 }
@@ -1109,7 +1264,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
     struct report *report = open_report(options, file);
     check_scene(options, !file);
     if (gm_system_is_form(&report->system)) {
-        return list_forms(options, report);
+        return list_forms(options, report, file);
     }
     if (options->invariants) {
         return list_invariants(options, report);

@@ -134,6 +134,7 @@ struct gm_saving {
 /* The lane's file notes failures, which are reported. Functions that return a bool are false with errno. */
 struct gm_data_format {
     const char *ending;
+    bool pictures; /* for VTK: forms as values at points and cells */
     /* Opens the lane's file with its existing rows; `expected`: the expected number of rows, 0 if it is not
        known. */
     void (*begin)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,

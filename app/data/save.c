@@ -144,7 +144,7 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
                               .members = run->problem->m,
                               .file.file = -1,
                               .meta_size = size->meta};
-    lane->count = gm_quantities_beside_time(run, lane->quantities);
+    lane->count = gm_quantities_beside_time(run, save->format->pictures, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
         lane->sizes[i] = gm_quantity_size(run, &lane->quantities[i]);

@@ -71,8 +71,9 @@ static void cut(const struct gm_saving *saving, struct gm_saved *lane)
 static const char *refuse(const struct gm_run *one, const struct gm_run *other)
 {
     struct gm_quantity of_one[GM_QUANTITIES], of_other[GM_QUANTITIES];
-    const size_t count = gm_quantities_beside_time(one, of_one);
-    bool same = count == gm_quantities_beside_time(other, of_other) && one->problem->m == other->problem->m;
+    const size_t count = gm_quantities_beside_time(one, false, of_one);
+    bool same =
+        count == gm_quantities_beside_time(other, false, of_other) && one->problem->m == other->problem->m;
     for (size_t i = 0; i < count && same; i++) {
         same = strcmp(of_one[i].name, of_other[i].name) == 0 && of_one[i].count == of_other[i].count &&
                of_one[i].fixed == of_other[i].fixed;

@@ -606,7 +606,17 @@ static bool drop(const struct gm_saving *saving, struct gm_saved *lane)
     return gm_bytes_close(&file);
 }
 
-const struct gm_data_format gm_data_format_pvd = {
-    .ending = ".pvd", .begin = begin, .row = row_of_files, .cut = cut, .list = list, .drop = drop};
-const struct gm_data_format gm_data_format_xdmf = {
-    .ending = ".xdmf", .begin = begin, .row = row_of_one_file, .cut = cut, .list = list, .drop = drop};
+const struct gm_data_format gm_data_format_pvd = {.ending = ".pvd",
+                                                  .pictures = true,
+                                                  .begin = begin,
+                                                  .row = row_of_files,
+                                                  .cut = cut,
+                                                  .list = list,
+                                                  .drop = drop};
+const struct gm_data_format gm_data_format_xdmf = {.ending = ".xdmf",
+                                                   .pictures = true,
+                                                   .begin = begin,
+                                                   .row = row_of_one_file,
+                                                   .cut = cut,
+                                                   .list = list,
+                                                   .drop = drop};

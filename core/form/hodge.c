@@ -94,6 +94,16 @@ struct gm_hodge *gm_hodge_open(struct gm_arena *arena, const struct gm_form_spac
     return hodge;
 }
 
+const struct gm_cholesky *gm_hodge_factor(const struct gm_hodge *hodge)
+{
+    return hodge->factor;
+}
+
+const struct gm_lu *gm_hodge_lu(const struct gm_hodge *hodge)
+{
+    return hodge->lu;
+}
+
 void gm_hodge_exact(struct gm_hodge *hodge, const double *a, double *part)
 {
     const struct gm_matrix *matrix = hodge->space->matrix;

@@ -398,3 +398,31 @@ double gm_form_square(const struct gm_form_space *space, struct gm_form_type typ
     }
     return fabs(sum);
 }
+
+void gm_form_vectors(const struct gm_form_space *space, bool dual, const double *form, double *scratch,
+                     double *vectors)
+{
+    const struct gm_complex *complex = space->complex;
+    if (dual) {
+        multiply(space, GM_MATRIX_DUAL_STAR1, form, scratch);
+        form = scratch;
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double p[9], n[3], w[3] = {0, 0, 0}, *v = vectors + 3 * t;
+        gm_complex_corners_in_space(complex, t, p);
+        gm_triangle_normal(p, n);
+        const double twice = 2 * complex->area[t];
+        for (size_t k = 0; k < 3; k++) {
+            const double value =
+                complex->triangle_sign[3 * t + k] * form[complex->triangle_edge[3 * t + k]] / (3 * twice);
+            /* n x (g_j - g_i) times twice the area is the edge from the middle of ij to the third corner, thrice */
+            for (size_t c = 0; c < 3; c++) {
+                w[c] += value * (p[3 * k + c] + p[3 * ((k + 1) % 3) + c] - 2 * p[3 * ((k + 2) % 3) + c]);
+            }
+        }
+        gm_cross(n, w, v);
+        for (size_t c = 0; c < 3; c++) {
+            v[c] = dual ? w[c] : v[c] / twice;
+        }
+    }
+}

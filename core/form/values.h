@@ -48,4 +48,10 @@ struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, stru
 double gm_form_square(const struct gm_form_space *space, struct gm_form_type type, const double *a,
                       double *scratch);
 
+/* The vectors of a 1-form at centres of mass, 3 a triangle; scratch: a number for each edge. With a (g_j - g_i)/3 for
+   each edge i -> j, g the gradients of barycentric coordinates, Whitney's form has that vector there; a dual 1-form u is
+   n x the vector of u over the star. */
+void gm_form_vectors(const struct gm_form_space *space, bool dual, const double *form, double *scratch,
+                     double *vectors);
+
 #endif

@@ -282,6 +282,11 @@ static bool narrow(struct gm_cholesky *cholesky)
     return error <= good_enough * good_enough * size;
 }
 
+size_t gm_cholesky_entries(const struct gm_cholesky *cholesky)
+{
+    return cholesky->factor->xsize;
+}
+
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision)
 {
@@ -368,12 +373,14 @@ struct gm_lu {
     const double *value;
     double control[UMFPACK_CONTROL];
     void *numeric;
+    double entries;
 };
 
 struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value)
 {
     struct gm_lu *lu = gm_cholesky_missing() ? NULL : calloc(1, sizeof *lu);
     void *symbolic = NULL;
+    double info[UMFPACK_INFO];
     if (!lu) {
         return NULL;
     }
@@ -386,13 +393,19 @@ struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const do
     const bool good = suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, lu->control,
                                                 NULL) == UMFPACK_OK &&
                       suite.umfpack_di_numeric(start, column, value, symbolic, &lu->numeric, lu->control,
-                                               NULL) == UMFPACK_OK;
+                                               info) == UMFPACK_OK;
     suite.umfpack_di_free_symbolic(&symbolic);
     if (!good) {
         gm_lu_close(lu);
         return NULL;
     }
+    lu->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
     return lu;
+}
+
+size_t gm_lu_entries(const struct gm_lu *lu)
+{
+    return (size_t)lu->entries;
 }
 
 void gm_lu_close(void *factors)

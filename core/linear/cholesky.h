@@ -23,6 +23,8 @@ enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision);
 void gm_cholesky_close(void *cholesky); /* for arenas too */
+/* The numbers that an exact factor holds. */
+size_t gm_cholesky_entries(const struct gm_cholesky *cholesky);
 /* b, x: n; may be the same */
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
 
@@ -32,7 +34,8 @@ struct gm_lu;
 
 /* The matrix outlives the factors. NULL when out of memory or if it is singular. */
 struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value);
-void gm_lu_close(void *lu); /* for arenas too */
+void gm_lu_close(void *lu);                   /* for arenas too */
+size_t gm_lu_entries(const struct gm_lu *lu); /* of both triangles */
 /* Solves A x = b; allocates. False when out of memory. */
 bool gm_lu_apply(const struct gm_lu *lu, const double *b, double *x);
 /* The same once. False when out of memory or if A is singular. */

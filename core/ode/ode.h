@@ -219,6 +219,8 @@ struct gm_ode {
     const struct gm_degenerate *degenerate;
     const struct gm_semilinear *semilinear;
     const struct gm_parts *parts;
+    /* The arrays of files (gm_quantities), if they are not those of `components`. */
+    size_t (*quantities)(const struct gm_run *run, struct gm_quantity *quantities);
     /* Writes the quantity of that name, which the motion conserves, in a graph opened for it, of the components by
        number. Returns GM_NO_NODE with what the problem lacks, worded like a facet, "" when out of memory, in
        GM_FAULT_SENTENCE bytes. NULL: there are no names but H. */

@@ -6,7 +6,7 @@
 #include "core/ode/user/forms.h"
 #include "scenes/common/system/look.h"
 
-enum { GM_MOST_FORM_OBSERVABLES = 64, GM_MOST_SHOWN_FORMS = 32 };
+enum { GM_MOST_FORM_OBSERVABLES = 64 };
 
 /* The subject of an observable. */
 struct gm_form_subject {
@@ -17,9 +17,7 @@ struct gm_form_subject {
 struct gm_form_scene {
     struct gm_system_scene of_file; /* first: the scene is its first member */
     struct gm_form_model model;
-    const char *shows[GM_MOST_SHOWN_FORMS + 3];        /* words of show=: forms, then "numbers" and "mesh" */
-    struct gm_form_subject shown[GM_MOST_SHOWN_FORMS]; /* GM_FORM_ERROR: a form of the system */
-    size_t show_count;                                 /* forms */
+    const char **shows; /* words of show=: named forms of the model, then "numbers" and "mesh" */
 };
 
 static inline const struct gm_form_scene *gm_form_scene_of(const void *parameters)

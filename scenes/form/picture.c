@@ -1,47 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forms as colours on their triangles: 0-forms and dual 2-forms at vertices, linear between; at triangles by
    value or density, constant on each; 1-forms by the size of their vectors, the mean at vertices, under arrows in
-   the middle of triangles. With a (g_j - g_i)/3 for each edge i -> j, g the gradients of barycentric
-   coordinates, Whitney's form has that vector there; a dual 1-form u is n x the vector of u over the star. */
+   the middle of triangles. */
 #include <math.h>
 #include <string.h>
 
-#include "core/linear/cholesky.h"
-#include "core/linear/vectors.h"
+#include "core/form/values.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/form/form.h"
 
 enum { MOST_GRAPHS = 3, LEVELS = 12 };
 
+static size_t named_count(const struct gm_system_lane *lane)
+{
+    return gm_form_scene_of(lane)->model.named_count;
+}
+
 bool gm_form_shows_numbers(const struct gm_system_lane *lane)
 {
-    return lane->numbers || (size_t)lane->grid.show == gm_form_scene_of(lane)->show_count;
+    return lane->numbers || (size_t)lane->grid.show == named_count(lane);
 }
 
 bool gm_form_shows_names(const struct gm_system_lane *lane)
 {
-    return (size_t)lane->grid.show == gm_form_scene_of(lane)->show_count + 1;
+    return (size_t)lane->grid.show == named_count(lane) + 1;
 }
 
 /* The number of the form that a lane shows. */
 static size_t shown_number(const struct gm_system_lane *lane)
 {
-    return (size_t)lane->grid.show < gm_form_scene_of(lane)->show_count ? (size_t)lane->grid.show : 0;
-}
-
-static const double *shown(const struct gm_view *view, struct gm_form_type *type)
-{
-    const struct gm_form_scene *scene = gm_form_scene_of(view->parameters);
-    const struct gm_form_subject subject = scene->shown[shown_number(view->parameters)];
-    if (subject.what == GM_FORM_ERROR) {
-        const struct gm_form_declared *form = &scene->of_file.system.forms[subject.index];
-        *type = (struct gm_form_type){form->degree, form->dual};
-        return gm_form_of(view->problem, view->state, view->t, subject.index);
-    }
-    const struct gm_form_program *observed = &scene->model.observed;
-    *type = observed->steps[observed->roots[subject.index]].type;
-    return gm_form_observed(view->problem, view->state, view->t, subject.index);
+    return (size_t)lane->grid.show < named_count(lane) ? (size_t)lane->grid.show : 0;
 }
 
 /* A form as it is painted. */
@@ -52,51 +41,21 @@ struct painted {
     double *vector; /* of 1-forms: 3 a triangle, in its middle */
 };
 
-/* Finds the vector of a primal 1-form in the middle of a triangle; `turned`: n x that. */
-static void find_vector(const struct gm_complex *complex, size_t t, const double *form, bool turned,
-                        double v[3])
-{
-    double p[9], n[3], w[3] = {0, 0, 0};
-    gm_complex_corners_in_space(complex, t, p);
-    gm_triangle_normal(p, n);
-    const double twice = 2 * complex->area[t];
-    for (size_t k = 0; k < 3; k++) {
-        const double value =
-            complex->triangle_sign[3 * t + k] * form[complex->triangle_edge[3 * t + k]] / (3 * twice);
-        /* n x (g_j - g_i) times twice the area is the edge from the middle of ij to the third corner, thrice */
-        for (size_t c = 0; c < 3; c++) {
-            w[c] += value * (p[3 * k + c] + p[3 * ((k + 1) % 3) + c] - 2 * p[3 * ((k + 2) % 3) + c]);
-        }
-    }
-    gm_cross(n, w, v);
-    for (size_t c = 0; c < 3; c++) {
-        v[c] = turned ? -w[c] : v[c] / twice;
-    }
-}
-
 /* Sizes at vertices of the mean vectors around them, at the corners of triangles. */
 static bool paint_sizes(struct gm_picture *picture, const struct gm_form_space *space,
                         struct painted *painted)
 {
     const struct gm_complex *complex = space->complex;
-    const double *form = painted->form;
     double *sum = gm_picture_memory(picture, 4 * complex->vertices * sizeof *sum);
-    double *primal = gm_picture_memory(picture, complex->edges * sizeof *primal);
+    double *scratch = gm_picture_memory(picture, complex->edges * sizeof *scratch);
     painted->vector = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->vector);
-    if (!sum || !primal || !painted->vector) {
+    if (!sum || !scratch || !painted->vector) {
         return false;
     }
-    memcpy(primal, form, complex->edges * sizeof *primal);
-    if (painted->type.dual && space->mass) {
-        gm_cholesky_solve(space->mass, form, primal);
-    }
-    for (size_t e = 0; e < complex->edges && painted->type.dual && !space->mass; e++) {
-        primal[e] /= complex->star1[e];
-    }
+    gm_form_vectors(space, painted->type.dual, painted->form, scratch, painted->vector);
     memset(sum, 0, 4 * complex->vertices * sizeof *sum);
     for (size_t t = 0; t < complex->triangles; t++) {
-        double *v = painted->vector + 3 * t;
-        find_vector(complex, t, primal, painted->type.dual, v);
+        const double *v = painted->vector + 3 * t;
         for (size_t i = 0; i < 12; i++) {
             sum[4 * (size_t)complex->triangle[3 * t + i / 4] + i % 4] +=
                 complex->area[t] * (i % 4 < 3 ? v[i % 4] : 1);
@@ -116,7 +75,9 @@ static bool paint(struct gm_picture *picture, const struct gm_view *view, struct
     const struct gm_complex *complex = space->complex;
     *painted = (struct painted){
         .value = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->value)};
-    painted->form = shown(view, &painted->type);
+    const size_t number = shown_number(view->parameters);
+    painted->type = gm_form_scene_of(view->parameters)->model.named[number].type;
+    painted->form = gm_form_numbers(view->problem, view->state, view->t, number);
     const struct gm_form_type type = painted->type;
     if (!painted->value || type.degree == 1) {
         return painted->value && paint_sizes(picture, space, painted);

@@ -160,24 +160,23 @@ static void make_observables(struct gm_form_scene *scene)
 
 /* ---- keys ---- */
 
-/* The forms that show= names: declared ones, then lets. */
+/* The words of show=. */
 static void make_shows(struct gm_form_scene *scene)
 {
-    const struct gm_user_system *system = &scene->of_file.system;
-    const struct gm_form_program *observed = &scene->model.observed;
-    for (size_t i = 0; i < system->n && scene->show_count < GM_MOST_SHOWN_FORMS; i++) {
-        scene->shown[scene->show_count] = (struct gm_form_subject){GM_FORM_ERROR, i};
-        scene->shows[scene->show_count++] = system->variables[i].name;
-    }
-    for (size_t i = 0; i < scene->model.observed_count && scene->show_count < GM_MOST_SHOWN_FORMS; i++) {
-        const struct gm_system_item *item = &system->items[scene->model.observed_item[i]];
-        if (item->word == GM_WORD_LET && observed->steps[observed->roots[i]].type.degree >= 0) {
-            scene->shown[scene->show_count] = (struct gm_form_subject){GM_FORM_OBSERVED, i};
-            scene->shows[scene->show_count++] = item->name;
+    static const char *const taken[] = {"numbers", "mesh", "points", "triangles", "edges", "dual_vertices"};
+    const struct gm_form_model *model = &scene->model;
+    struct gm_arena *arena = scene->of_file.arena;
+    gm_arena_refuse_if(arena, model->named_count == 0, "the file has no form: a line field, unknown or let");
+    scene->shows = gm_arena_take(arena, model->named_count + 3, sizeof *scene->shows);
+    for (size_t i = 0; i < model->named_count; i++) {
+        const char *name = scene->shows[i] = model->named[i].name;
+        for (size_t k = 0; k < GM_COUNT(taken); k++) {
+            gm_arena_refuse_if(arena, strcmp(name, taken[k]) == 0,
+                               "a form cannot be called %s: pictures or files of forms have that word", name);
         }
     }
-    scene->shows[scene->show_count] = "numbers";
-    scene->shows[scene->show_count + 1] = "mesh";
+    scene->shows[model->named_count] = "numbers";
+    scene->shows[model->named_count + 1] = "mesh";
 }
 
 static void make_rows(struct gm_form_scene *scene)
@@ -320,9 +319,6 @@ static void make(struct gm_system_making *making)
         read_mesh(scene, &making->unread);
     }
     make_shows(scene);
-    if (scene->show_count == 0) {
-        gm_arena_refuse(arena, "the file has no form: a line field, unknown or let");
-    }
     make_rows(scene);
     gm_system_describe(of_file, (struct gm_scene){.title = "Forms on triangles",
                                                   .blurb = "A user-defined system of forms.",

@@ -5,9 +5,12 @@ usage: forms.py GEOMINT"""
 import json
 import math
 import os
+import re
+import struct
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 GEOMINT = os.path.abspath(sys.argv[1])
 failures = 0
@@ -204,6 +207,101 @@ def written(text, *words):
             stream.write(text)
         return observed(os.path.join(folder, "typed.system"), *words)
 
+
+# files: constant forms of each type, and an unknown, as numbers for tables and as densities and vectors for VTK
+CONSTANTS = """geomint: 1
+mesh: rectangle 2 1 8 6
+star: barycentric
+field: a = 0-form, b = 1-form, c = 2-form, p = dual 0-form, r = dual 2-form
+unknown: f = 0-form
+equation: f; f = x + 3*t
+let: turned = star(b)
+rate: a = 0, b = 0, c = 0, p = 0, r = 0
+start: a = x, b = form(2, 3), c = 5, p = 7, r = 11
+dt: 0.5
+until: 1
+schemes: rk4
+"""
+
+
+def arrays(path):
+    """The numbers of an .npz file, and the shapes."""
+    found = {}
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            data = archive.read(name)
+            size = struct.unpack("<H", data[8:10])[0]
+            head = data[10:10 + size].decode()
+            kind = {"<f8": "d", "<i8": "q"}.get(re.search("'descr': '(.*?)'", head)[1])
+            shape = [int(n) for n in re.findall("[0-9]+", re.search(r"'shape': \((.*?)\)", head)[1])]
+            if kind:
+                found[name[:-4]] = shape, struct.unpack(f"<{len(data[10 + size:]) // 8}{kind}", data[10 + size:])
+    return found
+
+
+def blocks(path):
+    """The doubles of a .vtu file by their names."""
+    data = open(path, "rb").read()
+    head, rest = data.split(b"<AppendedData encoding=\"raw\">\n_", 1)
+    found = {}
+    for name, offset in re.findall(r'Float64" Name="(\w+)".*?offset="(\d+)"', head.decode()):
+        size, = struct.unpack("<Q", rest[int(offset):int(offset) + 8])
+        found[name] = struct.unpack(f"<{size // 8}d", rest[int(offset) + 8:int(offset) + 8 + size])
+    return found
+
+
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "constants.system")
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(CONSTANTS)
+    for ending in ("npz", "pvd", "csv"):
+        check(run([path, "--save", os.path.join(folder, f"c.{ending}")])[0] == 0, ending)
+    table = arrays(os.path.join(folder, "c.npz"))
+    (vertices, _), points = table["points"]
+    shapes = {name: shape for name, (shape, _) in table.items()}
+    edges, triangles = shapes["edges"][0], shapes["triangles"][0]
+    check(vertices - edges + triangles == 1 and
+          shapes == {"t": [3], "points": [vertices, 2], "triangles": [triangles, 3], "edges": [edges, 2],
+                     "dual_vertices": [triangles, 3], "a": [3, vertices], "b": [3, edges], "c": [3, triangles],
+                     "p": [3, triangles], "r": [3, vertices], "f": [3, vertices]}, f"shapes {shapes}")
+    ends = table["edges"][1]
+    check(max(abs(2 * (points[2 * j] - points[2 * i]) + 3 * (points[2 * j + 1] - points[2 * i + 1]) - value)
+              for i, j, value in zip(ends[::2], ends[1::2], table["b"][1])) < 1e-14, "the numbers of a 1-form")
+    check(abs(sum(table["c"][1]) / 3 - 10) < 1e-13 and abs(sum(table["r"][1]) / 3 - 22) < 1e-13, "2-forms in a table")
+    corners, places = table["triangles"][1], table["dual_vertices"][1]
+    check(max(abs(sum(points[2 * v + c] for v in corners[3 * t:3 * t + 3]) / 3 - place)
+              for t in range(triangles) for c, place in enumerate(places[3 * t:3 * t + 2])) < 1e-14, "centres of mass")
+    check(max(abs(value - points[2 * (k % vertices)] - 1.5 * (k // vertices))
+              for k, value in enumerate(table["f"][1])) < 1e-14, "an unknown at three times")
+    shown = blocks(os.path.join(folder, "c", "000002.vtu"))
+    check(sorted(shown) == sorted(["TimeValue", "Points", *"abcprf", "turned"]), f"names {sorted(shown)}")
+    for name, value in ("b", (2, 3, 0)), ("turned", (-3, 2, 0)), ("c", (5,)), ("p", (7,)), ("r", (11,)):
+        size = len(value)
+        check(max(abs(found - value[k % size]) for k, found in enumerate(shown.get(name, [math.nan]))) < 1e-12,
+              f"{name} in a .vtu: {shown[name][:6]}")
+    with open(os.path.join(folder, "c.csv"), encoding="utf-8") as stream:
+        columns = stream.readline().strip().split(",")
+    check(len(columns) == 1 + 3 * vertices + edges + 2 * triangles and columns[1] == "a[0]", "columns")
+
+# lists: types, groups, factors, and what the equations keep
+def listed(name, *words):
+    done = subprocess.run([GEOMINT, "list", name, *words, "--json"], capture_output=True, text=True)
+    check(done.returncode == 0, f"list {name}: {done.stderr}")
+    return json.loads(done.stdout)
+
+
+maxwell = listed("form-maxwell")
+check(maxwell["splits"] == [["E"], ["B"]] and maxwell["linear"] and maxwell["factors"] == [] and
+      [(form["name"], form["line"], form["type"]) for form in maxwell["forms"]] ==
+      [("E", "field", "1-form"), ("B", "field", "2-form"), ("energy", "invariant", "number")] and
+      maxwell["invariants"][0]["kept"] and maxwell["mesh"]["betti"] == [1, 0, 0] and
+      maxwell["mesh"]["vertices"] - maxwell["mesh"]["edges"] + maxwell["mesh"]["triangles"] == 1, f"{maxwell}")
+vorticity = listed("form-vorticity")
+check([form.get("equation") for form in vorticity["forms"][:2]] == [None, "0-form"] and
+      [kept["kept"] for kept in vorticity["invariants"]] == [False, True] and
+      [factor["symmetric"] for factor in vorticity["factors"]] == [True], f"{vorticity}")
+# the lower triangle of the matrix is within its factor: 2562 vertices and 7680 edges
+check(vorticity["factors"][0]["entries"] > 2562 + 7680, "the size of a factor")
 
 # a harmonic field goes round both circles alike, and a place is found on every mesh
 found = written("""geomint: 1

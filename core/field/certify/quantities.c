@@ -15,10 +15,10 @@ static double speed_of(const struct gm_run *run)
 }
 
 /* The current places of nodes that move with a frame. */
-static void places(const struct gm_run *run, double *values)
+static void places(const struct gm_run *run, size_t first, double *values)
 {
     const double travelled = speed_of(run) * (run->t - gm_framed_of(run->problem)->line.begin);
-    gm_quantity_grid(run).derive(run, values);
+    gm_quantity_grid(run).derive(run, first, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
         values[i] += travelled;
     }

@@ -13,30 +13,34 @@ static const struct gm_flow *flow_of(const struct gm_run *run)
     return gm_flow_of(run->problem);
 }
 
-static void points(const struct gm_run *run, double *values)
+static void points(const struct gm_run *run, size_t first, double *values)
 {
+    (void)first;
     const struct gm_complex *complex = flow_of(run)->complex;
     memcpy(values, complex->point, 2 * complex->vertices * sizeof *values);
 }
 
-static void triangles(const struct gm_run *run, double *values)
+static void triangles(const struct gm_run *run, size_t first, double *values)
 {
+    (void)first;
     const struct gm_complex *complex = flow_of(run)->complex;
     for (size_t i = 0; i < 3 * complex->triangles; i++) {
         values[i] = complex->triangle[i];
     }
 }
 
-static void velocity(const struct gm_run *run, double *values)
+static void velocity(const struct gm_run *run, size_t first, double *values)
 {
+    (void)first;
     const struct gm_complex *complex = flow_of(run)->complex;
     for (size_t t = 0; t < complex->triangles; t++) {
         gm_flow_velocity(complex, gm_run_state(run), t, values + 2 * t);
     }
 }
 
-static void pressure(const struct gm_run *run, double *values)
+static void pressure(const struct gm_run *run, size_t first, double *values)
 {
+    (void)first;
     const struct gm_flow *flow = flow_of(run);
     if (run->steps == 0 || !gm_flow_pressure(flow, gm_run_state(run), values)) {
         for (size_t t = 0; t < flow->complex->triangles; t++) {
@@ -45,22 +49,12 @@ static void pressure(const struct gm_run *run, double *values)
     }
 }
 
-static void tracers(const struct gm_run *run, double *values, int number)
+static void tracers(const struct gm_run *run, size_t number, double *values)
 {
     const struct gm_flow *flow = flow_of(run);
     for (size_t i = 0; i < flow->tracers; i++) {
         values[i] = gm_flow_tracer(flow, gm_run_state(run), i)[number];
     }
-}
-
-static void tracer_x(const struct gm_run *run, double *values)
-{
-    tracers(run, values, GM_TRACER_X);
-}
-
-static void tracer_y(const struct gm_run *run, double *values)
-{
-    tracers(run, values, GM_TRACER_Y);
 }
 
 /* The arrays of a run. The complex: points and triangles. At its vertices: stream_function, vorticity and,
@@ -85,8 +79,10 @@ size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantiti
         {flow->heat, {"temperature", GM_ON_NODES, v, 1, .first = GM_FLOW_TEMPERATURE * v}},
         {true, {"velocity", GM_ON_CELLS, t, 2, .derive = velocity}},
         {flow->complex->boundary > 0, {"pressure", GM_ON_CELLS, t, 1, .derive = pressure}},
-        {count > 0, {"tracer_x", GM_ON_TRACERS, count, 1, .axis = 1, .derive = tracer_x}},
-        {count > 0, {"tracer_y", GM_ON_TRACERS, count, 1, .axis = 2, .derive = tracer_y}},
+        {count > 0,
+         {"tracer_x", GM_ON_TRACERS, count, 1, .first = GM_TRACER_X, .axis = 1, .derive = tracers}},
+        {count > 0,
+         {"tracer_y", GM_ON_TRACERS, count, 1, .first = GM_TRACER_Y, .axis = 2, .derive = tracers}},
     };
     size_t there = 0;
     for (size_t i = 0; i < GM_COUNT(all); i++) {

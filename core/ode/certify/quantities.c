@@ -48,6 +48,9 @@ size_t gm_ode_quantities(const struct gm_run *run, struct gm_quantity *quantitie
     const char *names = gm_ode_of(problem)->components;
     const size_t active = problem->n - 2 * problem->passive;
     size_t lists = 0, first = 0;
+    if (gm_ode_of(problem)->quantities) {
+        return gm_ode_of(problem)->quantities(run, quantities);
+    }
     if (problem->line.points > 0) { /* fields on a line, which evolve by rates */
         quantities[0] = gm_quantity_grid(run);
         const size_t fields = read_names(names, quantities + 1, &lists);

@@ -149,12 +149,6 @@ static void limit(const struct compiling *compiling, const struct gm_form_progra
                       gm_fail(compiling->fault, roots[0].place, "%s", sentence));
 }
 
-/* The type of what the equation of unknown number k says. */
-static struct gm_form_type type_of_equation(const struct gm_form_model *model, size_t k)
-{
-    return model->equations.steps[model->equations.roots[k]].type;
-}
-
 static void compile_forms(const struct compiling *compiling)
 {
     struct gm_form_model *model = compiling->model;
@@ -190,9 +184,12 @@ static void compile_forms(const struct compiling *compiling)
     compile(compiling, &model->starts, starts, model->field_count, false);
     compile(compiling, &model->exacts, exact, exacts, false);
     compile(compiling, &model->equations, residuals, model->unknown_count, true);
+    model->equation_types = gm_arena_take(arena, n + 1, sizeof *model->equation_types);
     for (size_t k = 0; k < model->unknown_count; k++) {
         const size_t i = model->unknowns[k];
-        const struct gm_form_type type = type_of(system, i), found = type_of_equation(model, k);
+        const struct gm_form_type type = type_of(system, i),
+                                  found = model->equations.steps[model->equations.roots[k]].type;
+        model->equation_types[k] = found;
         const int places = type.dual ? 2 - type.degree : type.degree,
                   rows = found.dual ? 2 - found.degree : found.degree;
         if (found.degree < 0 || places != rows) {
@@ -291,6 +288,18 @@ static void compile_all(struct gm_arena *arena, void *data)
         }
     }
     compile(compiling, &model->observed, observed, model->observed_count, false);
+    model->named = gm_arena_take(arena, system->n + model->observed_count + 1, sizeof *model->named);
+    for (size_t i = 0; i < system->n; i++) {
+        model->named[model->named_count++] =
+            (struct gm_form_named){system->variables[i].name, type_of(system, i), true, i};
+    }
+    for (size_t i = 0; i < model->observed_count; i++) {
+        const struct gm_system_item *item = &system->items[model->observed_item[i]];
+        const struct gm_form_type type = model->observed.steps[model->observed.roots[i]].type;
+        if (item->word == GM_WORD_LET && type.degree >= 0) {
+            model->named[model->named_count++] = (struct gm_form_named){item->name, type, false, i};
+        }
+    }
 }
 
 bool gm_form_model_open(struct gm_form_model *model, struct gm_user_system *system, struct gm_fault *fault)
@@ -444,7 +453,7 @@ static void assemble(struct own *own)
         own->piece[i] = -1;
     }
     for (size_t k = 0; k < model->unknown_count; k++) {
-        const struct gm_form_type found = type_of_equation(model, k);
+        const struct gm_form_type found = model->equation_types[k];
         if (found.degree == 0) {
             const size_t form = model->unknowns[k];
             memcpy(own->weight + own->offset[form], cells_of(own, found.dual),
@@ -1048,6 +1057,7 @@ static void make(struct gm_arena *arena, void *data)
     }
     gm_arena_keep(arena, own, close_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
+    own->facets.quantities = gm_form_quantities;
     own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
@@ -1119,10 +1129,16 @@ const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem)
     return &own_of(problem)->space;
 }
 
-/* Solves for the unknowns of a state, unless it was the last one. */
-static void look(const struct gm_problem *problem, const double *y, double t)
+const struct gm_form_model *gm_form_model_of(const struct gm_problem *problem)
+{
+    return own_of(problem)->model;
+}
+
+/* Solves for the unknowns of a state, unless it was the last one, and takes the turn. */
+static struct own *look(const struct gm_problem *problem, const double *y, double t)
 {
     struct own *own = own_of(problem);
+    pthread_mutex_lock(&own->turn);
     if (own->seen_time != t || memcmp(own->seen, y, problem->n * sizeof *y) != 0) {
         memcpy(own->seen, y, problem->n * sizeof *y);
         own->seen_time = t;
@@ -1130,22 +1146,12 @@ static void look(const struct gm_problem *problem, const double *y, double t)
         solve(own, t);
         own->observes = false;
     }
-}
-
-const double *gm_form_of(const struct gm_problem *problem, const double *y, double t, size_t form)
-{
-    struct own *own = own_of(problem);
-    pthread_mutex_lock(&own->turn);
-    look(problem, y, t);
-    pthread_mutex_unlock(&own->turn);
-    return own->forms[form];
+    return own;
 }
 
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed)
 {
-    struct own *own = own_of(problem);
-    pthread_mutex_lock(&own->turn);
-    look(problem, y, t);
+    struct own *own = look(problem, y, t);
     if (!own->observes) {
         gm_form_values_run(&own->observed, t, own->forms);
         own->observes = true;
@@ -1154,9 +1160,20 @@ const double *gm_form_observed(const struct gm_problem *problem, const double *y
     return gm_form_values_root(&own->observed, observed);
 }
 
+const double *gm_form_numbers(const struct gm_problem *problem, const double *y, double t, size_t named)
+{
+    const struct gm_form_named *form = &own_of(problem)->model->named[named];
+    if (!form->declared) {
+        return gm_form_observed(problem, y, t, form->number);
+    }
+    struct own *own = look(problem, y, t);
+    pthread_mutex_unlock(&own->turn);
+    return own->forms[form->number];
+}
+
 double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form)
 {
-    struct own *own = own_of(problem);
+    struct own *own = look(problem, y, t);
     const struct gm_user_system *system = own->model->system;
     const struct gm_form_type type = type_of(system, form);
     const size_t n = size_of(own, form);
@@ -1164,8 +1181,6 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     for (size_t i = 0; i < form; i++) {
         number += system->forms[i].exact != GM_NO_NODE;
     }
-    pthread_mutex_lock(&own->turn);
-    look(problem, y, t);
     gm_form_values_run(&own->exacts, t, own->forms);
     const double *exact = gm_form_values_root(&own->exacts, number), *found = own->forms[form],
                  *cell = cells_of(own, type.dual);
@@ -1187,14 +1202,43 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
 
 double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form)
 {
-    gm_form_of(problem, y, t, form);
-    return own_of(problem)->defect[form];
+    struct own *own = look(problem, y, t);
+    pthread_mutex_unlock(&own->turn);
+    return own->defect[form];
 }
 
 double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form)
 {
-    gm_form_of(problem, y, t, form);
-    return own_of(problem)->remainder[form];
+    struct own *own = look(problem, y, t);
+    pthread_mutex_unlock(&own->turn);
+    return own->remainder[form];
+}
+
+size_t gm_form_factors(const struct gm_problem *problem, struct gm_form_factor factors[GM_FORM_FACTORS])
+{
+    const struct own *own = own_of(problem);
+    const struct gm_hodge *hodge = own->rates.hodge       ? own->rates.hodge
+                                   : own->equations.hodge ? own->equations.hodge
+                                                          : own->observed.hodge;
+    const struct {
+        const char *matrix;
+        const struct gm_cholesky *cholesky;
+        const struct gm_lu *lu;
+    } all[GM_FORM_FACTORS] = {{"equations", own->factor, own->lu},
+                              {"mass matrix of 1-forms", own->space.mass, NULL},
+                              {"potential of exact parts", hodge ? gm_hodge_factor(hodge) : NULL, NULL},
+                              {"coexact parts", NULL, hodge ? gm_hodge_lu(hodge) : NULL}};
+    size_t count = 0;
+    for (size_t i = 0; i < GM_FORM_FACTORS; i++) {
+        if (all[i].cholesky || all[i].lu) {
+            const size_t entries =
+                all[i].cholesky ? gm_cholesky_entries(all[i].cholesky) : gm_lu_entries(all[i].lu);
+            const size_t bytes = sizeof(double) + (all[i].lu ? sizeof(int) : 0); /* of LU with its place */
+            factors[count++] = (struct gm_form_factor){all[i].matrix, all[i].cholesky, entries,
+                                                       (double)(entries * bytes) / 1e6};
+        }
+    }
+    return count;
 }
 
 double gm_form_drift(const struct gm_problem *problem, size_t observed)

@@ -7,6 +7,15 @@
 #include "core/form/program.h"
 #include "core/ode/ode.h"
 
+/* A form that files and pictures have by its name. */
+struct gm_form_named {
+    const char *name;
+    struct gm_form_type type;
+    bool
+        declared; /* a field or an unknown, `number` of the system; else a let, `number` of what is observed */
+    size_t number;
+};
+
 /* The programs of a system of forms, which know no mesh. */
 struct gm_form_model {
     struct gm_user_system *system;
@@ -16,9 +25,12 @@ struct gm_form_model {
     size_t *held_item;               /* the line of each root of `held` */
     size_t observed_count;           /* invariants, observables and lets, in the order of the items */
     size_t *observed_item;
+    struct gm_form_named *named; /* declared forms, then lets */
+    size_t named_count;
     const char *mesh_name,
         *mesh_text; /* the file of the mesh, and its bytes, which the caller keeps; NULL: generated */
     size_t mesh_size;
+    struct gm_form_type *equation_types; /* of each unknown */
     size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
 };
 
@@ -44,9 +56,11 @@ void gm_form_problem_close(struct gm_problem *problem);
 void gm_form_start(const struct gm_problem *problem, double *y);
 
 const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem);
-/* The numbers of form i of the system in a state, which for an unknown are solved for; valid until the next
-   call. */
-const double *gm_form_of(const struct gm_problem *problem, const double *y, double t, size_t form);
+const struct gm_form_model *gm_form_model_of(const struct gm_problem *problem);
+/* The numbers of a named form in a state, which for an unknown are solved for; valid until the next call. */
+const double *gm_form_numbers(const struct gm_problem *problem, const double *y, double t, size_t named);
+/* The arrays of files (gm_quantities): the mesh, and named forms. */
+size_t gm_form_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 /* The value of what is observed, a number or a form; valid until the next call. */
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
 /* The error of form i at a time, relative to the exact form; NaN without an `exact:`. */
@@ -56,6 +70,16 @@ double gm_form_contradiction(const struct gm_problem *problem, const double *y, 
 
 /* The largest residual of its equations, relative to the largest sum of their terms' magnitudes. */
 double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form);
+
+/* The factors that are made when a problem is opened; `symmetric`: Cholesky's, else those by LU. Returns their number. */
+enum { GM_FORM_FACTORS = 4 };
+struct gm_form_factor {
+    const char *matrix;
+    bool symmetric;
+    size_t entries;
+    double megabytes;
+};
+size_t gm_form_factors(const struct gm_problem *problem, struct gm_form_factor factors[GM_FORM_FACTORS]);
 
 /* The rate of an observed number along the equations, at the start with random numbers added: relative, in the time in
    which the state would change by as much as it is. About 1e-13: the mesh keeps it. NaN when out of memory. */

@@ -33,6 +33,7 @@ static const char *names_of(struct gm_arena *arena, const struct gm_user_system 
 {
     /* lists have one name each if their lengths agree, else every component has its own, if there is room */
     const size_t n = system->n + system->timed;
+    enum { MOST_NAMES = 16 };
     size_t lists = 0, scalars = 0, longest = 0, shortest = SIZE_MAX, length = 0;
     const char *names = "";
     bool fit = true;
@@ -53,7 +54,7 @@ static const char *names_of(struct gm_arena *arena, const struct gm_user_system 
             lists++;
         }
     }
-    fit = fit && (lists == 0 || longest == shortest) && lists + scalars <= GM_QUANTITIES;
+    fit = fit && (lists == 0 || longest == shortest) && lists + scalars <= MOST_NAMES;
     for (size_t i = 0; i < n && fit; i++) {
         const char *name = system->variables[i].name;
         const size_t letters = strcspn(name, "[");
