@@ -57,8 +57,8 @@ static void take_memory(struct gm_flow_solver *solver)
     solver->field = gm_arena_take(arena, v, sizeof(double));
     solver->velocities = gm_arena_take(arena, 3 * v, sizeof(double));
     solver->carried_rate = gm_arena_take(arena, v, sizeof(double));
-    solver->b = gm_arena_take(arena, z + solver->warm, sizeof(double));
-    solver->x = gm_arena_take(arena, z + solver->warm, sizeof(double));
+    solver->b = gm_arena_take(arena, 2 * (z + solver->warm), sizeof(double));
+    solver->x = solver->b + z + solver->warm;
     solver->small_b = gm_arena_take(arena, z, sizeof(double));
     solver->bicgstab = gm_arena_take(arena, 8 * v, sizeof(double));
     solver->transport = gm_transport_of(arena, complex);
@@ -85,8 +85,7 @@ static double energy_limit(struct gm_flow_solver *solver)
         return INFINITY;
     }
     memcpy(solver->rate, flow->psi, flow->complex->vertices * sizeof *solver->rate);
-    gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, NULL, solver->b, solver->x,
-                              solver->rate);
+    gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, NULL, solver->b, solver->rate);
     const double largest = gm_flow_largest_speed(flow, solver->rate);
     return largest * largest * flow->complex->total_area;
 }

@@ -1122,12 +1122,15 @@ bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_no
         fields[i] = i < system->n || (i > system->velocities && i < system->initial);
         varying[i] = i < system->parameters || i >= system->velocities;
     }
-    const bool good =
-        fields && varying &&
-        gm_linear_part(&system->graph, node, fields, varying, system->variable_count, line, rest);
+    struct gm_linear_split split = {GM_NO_NODE, GM_NO_NODE};
+    system->graph.failed |=
+        !fields || !varying ||
+        !gm_linear_part(&system->graph, node, fields, varying, system->variable_count, &split);
+    *line = split.line;
+    *rest = split.rest;
     free(fields);
     free(varying);
-    return good;
+    return !system->graph.failed;
 }
 
 static void check_masses(struct gm_user_system *system)
