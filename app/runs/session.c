@@ -510,10 +510,8 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
         struct gm_timing *timing = wanted->parameters;
         timing->dt = fabs(timing->dt); /* a start is forwards */
     }
-    const bool of_scheme = gm_is_setting(row);
-    void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
-    gm_parameter_set(row, owner, text);
-    return of_scheme || !session->scene->settle ||
+    gm_parameter_set(row, gm_lane_owner(wanted, row), text);
+    return gm_is_setting(row) || !session->scene->settle ||
            session->scene->settle(wanted->parameters, &row->key, 1, message);
 }
 

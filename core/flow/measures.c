@@ -268,12 +268,12 @@ struct samples {
 };
 
 /* The points nearest to a place, with relative coordinates; on a torus their nearest images. */
-static size_t find_nearest(const struct samples *samples, const double at[2], struct near nearest[NEAREST])
+static size_t find_nearest(const struct samples *samples, const double place[2], struct near nearest[NEAREST])
 {
     const struct gm_complex *complex = samples->complex;
     size_t count = 0;
     for (size_t v = 0; v < samples->count; v++) {
-        double d[2] = {samples->points[2 * v] - at[0], samples->points[2 * v + 1] - at[1]};
+        double d[2] = {samples->points[2 * v] - place[0], samples->points[2 * v + 1] - place[1]};
         for (int c = 0; c < 2; c++) {
             const double period = complex->period[c];
             d[c] -= period > 0 ? period * round(d[c] / period) : 0;

@@ -102,18 +102,13 @@ static bool is_vorticity_form(const struct gm_flow *flow)
     return true;
 }
 
-static void close_flow(void *flow)
-{
-    gm_flow_close(flow);
-}
-
 /* Opens the solver of the flow that the data points to, and lets it point to the solver. */
 static void open_solver(struct gm_arena *arena, void *data)
 {
     const struct gm_flow *flow = *(const void **)data;
     struct gm_flow_solver *solver = gm_arena_take(arena, 1, sizeof *solver);
     solver->arena = arena;
-    solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), close_flow) : NULL;
+    solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), gm_flow_close) : NULL;
     solver->flow = flow->give ? solver->now : flow;
     solver->energy_limit = INFINITY;
     solver->vorticity_form = is_vorticity_form(flow);
