@@ -64,13 +64,13 @@ bool gm_memory_guard_gsl(bool (*work)(void *data), void *data)
     jmp_buf here, *const outer = way_out;
     exchange_handler(true);
     way_out = &here;
-    bool good = false;
+    bool done = false;
     if (setjmp(here) == 0) {
-        good = work(data);
+        done = work(data);
     }
     way_out = outer;
     exchange_handler(false);
-    return good;
+    return done;
 }
 
 unsigned long gm_memory_refusals(void)

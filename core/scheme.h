@@ -51,6 +51,11 @@ extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
 /* Returns the row with that key, or NULL. */
 const struct gm_parameter *gm_setting_find(const char *key);
+/* Returns true for one of these rows: it is of schemes, not of a scene. */
+static inline bool gm_is_setting(const struct gm_parameter *row)
+{
+    return row >= gm_settings_parameters && row < gm_settings_parameters + gm_settings_parameter_count;
+}
 /* Rows for families, NULL-terminated. */
 extern const struct gm_parameter *const gm_settings_of_sums[];             /* compensated */
 extern const struct gm_parameter *const gm_settings_of_tao[];              /* binding */

@@ -95,11 +95,13 @@ bool gm_handle_given(geomint *handle, const void *pointer, const char *name)
 /* The same for each of `count` words. */
 static bool are_given(geomint *handle, int count, const char *const words[])
 {
-    bool good = count <= 0 || gm_handle_given(handle, words, "words");
-    for (int i = 0; good && i < count; i++) {
-        good = gm_handle_given(handle, words[i], "one of the words");
+    for (int i = 0; i < count; i++) {
+        if (!gm_handle_given(handle, words, "words") ||
+            !gm_handle_given(handle, words[i], "one of the words")) {
+            return false;
+        }
     }
-    return good;
+    return true;
 }
 
 bool gm_handle_has(geomint *handle, size_t lane)
@@ -514,9 +516,9 @@ static void follow(struct gm_arena *arena, void *data)
         drawn->whole_steps = drive->whole_steps;
         /* repeats the step that failed, so that the picture reports it */
         const int64_t more = drive->lane->run->status == GM_OK ? 0 : 1;
-        const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, message);
+        const bool driven = gm_drive_to(drawn, drive->lane->run->steps + more, true, message);
         drawn->stop = NULL;
-        if (!good) {
+        if (!driven) {
             gm_arena_refuse(arena, "%s", message);
         }
     }

@@ -287,13 +287,12 @@ static void print_text(const struct outcome *outcome)
 }
 
 /* Returns true if the lanes differ in a parameter of the scene or of schemes. */
-static bool differs(const struct gm_request *request, const struct gm_parameter *row, bool own)
+static bool differs(const struct gm_request *request, const struct gm_parameter *row)
 {
     char first[GM_TEXT_SIZE], other[GM_TEXT_SIZE];
-    const struct gm_lane_spec *lanes = request->lanes;
-    gm_parameter_format(row, own ? lanes[0].parameters : &lanes[0].settings, first, sizeof first);
+    gm_parameter_format(row, gm_lane_owner(&request->lanes[0], row), first, sizeof first);
     for (size_t i = 1; i < request->count; i++) {
-        gm_parameter_format(row, own ? lanes[i].parameters : &lanes[i].settings, other, sizeof other);
+        gm_parameter_format(row, gm_lane_owner(&request->lanes[i], row), other, sizeof other);
         if (strcmp(first, other) != 0) {
             return true;
         }
@@ -307,26 +306,25 @@ static char *front_of(const struct gm_request *request, size_t lane, enum gm_row
 {
     char *text = NULL;
     size_t size = 0;
-    const struct gm_lane_spec *spec = &request->lanes[lane];
+    const struct gm_scene *scene = request->scene;
+    struct gm_lane_spec *spec = &request->lanes[lane];
     FILE *stream = open_memstream(&text, &size);
     if (!stream) {
         return NULL;
     }
     struct gm_row cells = {.stream = stream, .form = form};
-    gm_row_put(&cells, "scene %s, lane %.0f, scheme %s", request->scene->name, (double)lane,
-               spec->scheme->name);
-    for (size_t own = 2; own-- > 0;) {
-        const struct gm_parameter *rows = own ? request->scene->parameters : gm_settings_parameters;
-        const size_t count = own ? request->scene->parameter_count : gm_settings_parameter_count;
-        for (size_t i = 0; i < count; i++) {
-            if (!differs(request, &rows[i], own)) {
-                continue;
-            }
-            if (own || gm_scheme_takes(spec->scheme, &rows[i])) {
-                gm_meta_parameter(&cells, &rows[i], own ? spec->parameters : (const void *)&spec->settings);
-            } else {
-                gm_row_number(&cells, rows[i].key, NAN, 17); /* an empty cell */
-            }
+    gm_row_put(&cells, "scene %s, lane %.0f, scheme %s", scene->name, (double)lane, spec->scheme->name);
+    for (size_t i = 0; i < scene->parameter_count + gm_settings_parameter_count; i++) {
+        const struct gm_parameter *row = i < scene->parameter_count
+                                             ? &scene->parameters[i]
+                                             : &gm_settings_parameters[i - scene->parameter_count];
+        if (!differs(request, row)) {
+            continue;
+        }
+        if (gm_is_setting(row) && !gm_scheme_takes(spec->scheme, row)) {
+            gm_row_number(&cells, row->key, NAN, 17); /* an empty cell */
+        } else {
+            gm_meta_parameter(&cells, row, gm_lane_owner(spec, row));
         }
     }
     fclose(stream);

@@ -623,11 +623,6 @@ static void put_fact(struct gm_row *row, const char *word, const char *of, bool 
     gm_row_close(&fact);
 }
 
-static void put_part(struct gm_row *row, const char *name, const char *flow)
-{
-    gm_row_text(row, name, flow);
-}
-
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
@@ -640,7 +635,7 @@ static void print_json(const struct report *report, const struct gm_file *file)
     each_fact(report, put_fact, &structure);
     gm_row_close(&structure);
     struct gm_row parts = gm_row_open(&row, "parts", '}');
-    each_part(report, put_part, &parts);
+    each_part(report, gm_row_text, &parts);
     gm_row_close(&parts);
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;

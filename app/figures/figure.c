@@ -256,10 +256,8 @@ static bool holds(const struct gm_statement *statement, double number, bool fail
 static const char *value_of(const struct gm_request *request, size_t lane, const char *key, char *text,
                             size_t size)
 {
-    const struct gm_lane_spec *spec = &request->lanes[lane];
-    const struct gm_parameter *row = gm_scene_parameter(request->scene, key);
-    return row ? gm_parameter_format(row, spec->parameters, text, size)
-               : gm_parameter_format(gm_setting_find(key), &spec->settings, text, size);
+    const struct gm_parameter *row = gm_word_parameter(request->scene, key);
+    return gm_parameter_format(row, gm_lane_owner(&request->lanes[lane], row), text, size);
 }
 
 /* "dt=0.1 until=20": a lane's values of the keys that its document does not give. */

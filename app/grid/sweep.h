@@ -131,10 +131,9 @@ const char *gm_sweep_shard_path(struct gm_arena *arena, const char *path, size_t
 void gm_sweep_note(const struct gm_sweep *sweep, const char *path);
 /* Opens the sweep of the note FILE.csv.sweep, as gm_sweep_open does. */
 void gm_sweep_recall(struct gm_arena *arena, struct gm_sweep *sweep, const char *path);
-/* Joins the shards' rows in the order of the runs to FILE.csv; calls `missing` with the words of each run
-   without a row, and returns their number. Called in a body of the sweep's arena. */
-size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
-                     void (*missing)(size_t run, const char *words));
+/* Joins the shards' rows in the order of the runs to FILE.csv, names runs without a row, and returns their number.
+   Called in a body of the sweep's arena. */
+size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path);
 
 /* ---- the picture ---- */
 

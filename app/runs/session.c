@@ -168,11 +168,11 @@ const void *gm_session_owner(const struct gm_session *session, size_t lane, bool
     return wanted->parameters ? wanted->parameters : session->lanes[lane]->parameters;
 }
 
-bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row, bool of_scheme)
+bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row)
 {
-    double first = gm_parameter_get(row, gm_session_owner(session, 0, of_scheme));
+    double first = gm_parameter_get(row, gm_session_owner(session, 0, gm_is_setting(row)));
     for (size_t i = 1; i < session->count; i++) {
-        if (gm_parameter_get(row, gm_session_owner(session, i, of_scheme)) != first) {
+        if (gm_parameter_get(row, gm_session_owner(session, i, gm_is_setting(row))) != first) {
             return true;
         }
     }
@@ -497,8 +497,8 @@ bool gm_session_restart(struct gm_session *session, char *message)
 /* ---- changes, during the run or for the next start ---- */
 
 /* Sets a parameter that takes effect with the next restart. */
-static bool want(struct gm_session *session, size_t i, const struct gm_parameter *row, bool of_scheme,
-                 const char *text, char *message)
+static bool want(struct gm_session *session, size_t i, const struct gm_parameter *row, const char *text,
+                 char *message)
 {
     struct gm_lane_spec *wanted = &session->wanted[i];
     if (!wanted->parameters) {
@@ -510,9 +510,8 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
         struct gm_timing *timing = wanted->parameters;
         timing->dt = fabs(timing->dt); /* a start is forwards */
     }
-    void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
-    gm_parameter_set(row, owner, text);
-    return of_scheme || !session->scene->settle ||
+    gm_parameter_set(row, gm_lane_owner(wanted, row), text);
+    return gm_is_setting(row) || !session->scene->settle ||
            session->scene->settle(wanted->parameters, &row->key, 1, message);
 }
 
@@ -576,10 +575,11 @@ static void rename_by_parameter(struct gm_session *session, size_t i, const char
     gm_lane_show(session->lanes[i], shown);
 }
 
-bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
-                    const char *text, bool *restart, char *message)
+bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, const char *text,
+                    bool *restart, char *message)
 {
-    bool alone = gm_session_differs(session, row, of_scheme), now = row->live && !of_scheme;
+    const bool of_scheme = gm_is_setting(row);
+    bool alone = gm_session_differs(session, row), now = row->live && !of_scheme;
     bool step = !of_scheme && row->offset == offsetof(struct gm_timing, dt);
     char change[GM_MESSAGE];
     if (!gm_value_read(row, NULL, text, message)) {
@@ -602,7 +602,7 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
             return false;
         }
         /* a restart that is already due keeps a live change too */
-        if ((!now || session->wanted[i].parameters) && !want(session, i, row, of_scheme, text, message)) {
+        if ((!now || session->wanted[i].parameters) && !want(session, i, row, text, message)) {
             return false;
         }
         rename_by_parameter(session, i, row->key, text);

@@ -85,10 +85,10 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message);
 
 /* Sets a parameter of the scene or of the schemes, in every lane, or only in `lane` if lanes differ in it.
    A live one acts at once; otherwise *restart is set, and the change takes effect with gm_session_restart. */
-bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
-                    const char *text, bool *restart, char *message);
+bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, const char *text,
+                    bool *restart, char *message);
 /* Returns true if the lanes differ in a parameter. */
-bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row, bool of_scheme);
+bool gm_session_differs(const struct gm_session *session, const struct gm_parameter *row);
 /* The struct that holds a lane's parameters of the scene or of the schemes, as last set. */
 const void *gm_session_owner(const struct gm_session *session, size_t lane, bool of_scheme);
 

@@ -56,7 +56,7 @@ static void take_parameter(struct gm_shot *shot, const struct gm_session *sessio
     const void *owner = gm_session_owner(session, shot->selected, of_scheme);
     *parameter = (struct gm_shot_parameter){.row = row,
                                             .of_scheme = of_scheme,
-                                            .differs = gm_session_differs(session, row, of_scheme),
+                                            .differs = gm_session_differs(session, row),
                                             .position = gm_slider_position(row, owner)};
     gm_parameter_format(row, owner, parameter->value, sizeof parameter->value);
 }

@@ -68,7 +68,7 @@ static void make_change(struct gm_session *session, const struct gm_tour_change 
         const struct gm_parameter *row = gm_scene_parameter(session->scene, key);
         bool restart = false;
         if (row) {
-            gm_session_set(session, i, row, false, change->text + strlen(key) + 1, &restart, message);
+            gm_session_set(session, i, row, change->text + strlen(key) + 1, &restart, message);
         }
     }
 }

@@ -15,25 +15,25 @@
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
-/* The value of a row in a lane, which a scheme's settings or the scene's parameters have; NULL: the scheme. */
+/* The value of a row in a lane; NULL: the scheme. */
 static const char *value_of(const struct gm_request *request, size_t lane, const struct gm_parameter *row,
-                            bool setting, char *text)
+                            char *text)
 {
-    const struct gm_lane_spec *spec = &request->lanes[lane];
-    const void *owner = setting ? (const void *)&spec->settings : spec->parameters;
-    return row ? gm_parameter_format(row, owner, text, GM_TEXT_SIZE) : gm_scheme_word(spec->scheme);
+    struct gm_lane_spec *spec = &request->lanes[lane];
+    return row ? gm_parameter_format(row, gm_lane_owner(spec, row), text, GM_TEXT_SIZE)
+               : gm_scheme_word(spec->scheme);
 }
 
 /* One key of the formatted request: the value of every lane, unless all have the standard one. Returns whether they
    are a list. */
 static bool format_key(FILE *stream, const struct gm_request *request, const struct gm_parameter *row,
-                       bool setting, const char *standard)
+                       const char *standard)
 {
     char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
     bool same = true;
-    const char *first = value_of(request, 0, row, setting, room);
+    const char *first = value_of(request, 0, row, room);
     for (size_t i = 1; i < request->count; i++) {
-        same &= strcmp(first, value_of(request, i, row, setting, text)) == 0;
+        same &= strcmp(first, value_of(request, i, row, text)) == 0;
     }
     if (same && standard && strcmp(first, standard) == 0) {
         return false;
@@ -42,7 +42,7 @@ static bool format_key(FILE *stream, const struct gm_request *request, const str
     gm_arguments_put(stream, first);
     for (size_t i = 1; i < request->count && !same; i++) {
         fputc(',', stream);
-        gm_arguments_put(stream, value_of(request, i, row, setting, text));
+        gm_arguments_put(stream, value_of(request, i, row, text));
     }
     return !same;
 }
@@ -74,18 +74,18 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     gm_arguments_put_scene(stream, request->scene);
-    int lists = format_key(stream, request, NULL, false, NULL);
+    int lists = format_key(stream, request, NULL, NULL);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         const bool always = row->required || has_key(&arguments, row->key);
         if (!gm_request_idle(request, row->key)) {
-            lists += format_key(stream, request, row, false, always ? NULL : row->standard);
+            lists += format_key(stream, request, row, always ? NULL : row->standard);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
         const bool always = has_key(&arguments, row->key);
-        lists += format_key(stream, request, row, true, always ? NULL : row->standard);
+        lists += format_key(stream, request, row, always ? NULL : row->standard);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);

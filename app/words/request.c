@@ -94,8 +94,7 @@ static void apply(struct gm_arena *arena, struct gm_request *request, struct gm_
     }
     const struct gm_parameter *parameter = gm_scene_parameter(request->scene, list->key);
     const struct gm_parameter *row = parameter ? parameter : gm_setting_find(list->key);
-    void *owner = parameter ? spec->parameters : (void *)&spec->settings;
-    const bool read = !row || gm_value_read(row, owner, text, message);
+    const bool read = !row || gm_value_read(row, gm_lane_owner(spec, row), text, message);
     if (!read && row->type == GM_REAL && list->piece_count == list->count &&
         gm_words_decimal_comma(list, index, number, sizeof number)) {
         gm_append(message, GM_MESSAGE, "; " GM_DECIMAL_POINT, number);

@@ -21,6 +21,12 @@ struct gm_lane_spec {
     double end;    /* the time of the last step; for an adaptive scheme the end to reach */
 };
 
+/* The struct that holds a lane's value of a row, of its scene or of schemes. */
+static inline void *gm_lane_owner(struct gm_lane_spec *spec, const struct gm_parameter *row)
+{
+    return gm_is_setting(row) ? &spec->settings : spec->parameters;
+}
+
 /* A change during a run: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
 struct gm_change {
     size_t lane;

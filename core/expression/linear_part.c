@@ -10,66 +10,62 @@
 #include "core/expression/derivative.h"
 #include "core/expression/identity.h"
 
-struct parts {
-    gm_node_id line, rest;
-};
-
-static struct parts split(struct gm_formula *graph, gm_node_id node, const struct parts *of,
-                          const bool *fields, const bool *constant)
+static struct gm_linear_split split_of(struct gm_formula *graph, gm_node_id node,
+                                       const struct gm_linear_split *of, const bool *fields,
+                                       const bool *constant)
 {
     const struct gm_node made = graph->nodes[node];
     const gm_node_id zero = gm_formula_constant(graph, 0);
     const enum gm_operation operation = made.operation;
     const bool two = operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT ||
                      operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE;
-    const struct parts none = {zero, zero}, a = operation > GM_VARIABLE ? of[made.a] : none,
-                       b = two ? of[made.b] : none;
+    const struct gm_linear_split none = {zero, zero}, a = operation > GM_VARIABLE ? of[made.a] : none,
+                                 b = two ? of[made.b] : none;
     const bool by_right = operation == GM_OPERATION_MULTIPLY && constant[made.a],
                by_left = (operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE) &&
                          constant[made.b];
     if (operation == GM_VARIABLE && fields[made.a]) {
-        return (struct parts){node, zero};
+        return (struct gm_linear_split){node, zero};
     }
     if (operation == GM_OPERATION_ADD || operation == GM_OPERATION_SUBTRACT) {
-        return (struct parts){gm_simplified(graph, operation, a.line, b.line),
-                              gm_simplified(graph, operation, a.rest, b.rest)};
+        return (struct gm_linear_split){gm_simplified(graph, operation, a.line, b.line),
+                                        gm_simplified(graph, operation, a.rest, b.rest)};
     }
     if (operation == GM_OPERATION_NEGATE) {
-        return (struct parts){gm_simplified(graph, operation, a.line, a.line),
-                              gm_simplified(graph, operation, a.rest, a.rest)};
+        return (struct gm_linear_split){gm_simplified(graph, operation, a.line, a.line),
+                                        gm_simplified(graph, operation, a.rest, a.rest)};
     }
     if (operation > GM_VARIABLE && !constant[node] && (by_left || by_right)) {
-        return by_left ? (struct parts){gm_simplified(graph, operation, a.line, made.b),
-                                        gm_simplified(graph, operation, a.rest, made.b)}
-                       : (struct parts){gm_simplified(graph, operation, made.a, b.line),
-                                        gm_simplified(graph, operation, made.a, b.rest)};
+        return by_left ? (struct gm_linear_split){gm_simplified(graph, operation, a.line, made.b),
+                                                  gm_simplified(graph, operation, a.rest, made.b)}
+                       : (struct gm_linear_split){gm_simplified(graph, operation, made.a, b.line),
+                                                  gm_simplified(graph, operation, made.a, b.rest)};
     }
-    return (struct parts){zero, node};
+    return (struct gm_linear_split){zero, node};
 }
 
 bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *fields, const bool *varying,
-                    size_t variables, gm_node_id *line, gm_node_id *rest)
+                    size_t variables, struct gm_linear_split *split)
 {
     const size_t known = graph->count;
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    struct parts *of = calloc(known, sizeof *of);
+    struct gm_linear_split *of = calloc(known, sizeof *of);
     bool *moves = gm_formula_dependent(graph, varying, variables);
     for (size_t i = 0; moves && i < known; i++) {
         moves[i] = !moves[i]; /* it now marks constants */
     }
-    const bool good = parts && of && moves;
-    for (size_t i = 0; good && i < count && !graph->failed; i++) {
-        of[parts[i]] = split(graph, parts[i], of, fields, moves);
+    graph->failed |= !parts || !of || !moves;
+    for (size_t i = 0; i < count && !graph->failed; i++) {
+        of[parts[i]] = split_of(graph, parts[i], of, fields, moves);
     }
-    if (good && !graph->failed) {
-        *line = of[node].line;
-        *rest = of[node].rest;
+    if (!graph->failed) {
+        *split = of[node];
     }
     free(parts);
     free(of);
     free(moves);
-    return good && !graph->failed;
+    return !graph->failed;
 }
 
 /* Tests the derivatives over marked variables of each derivative in `slopes`. */

@@ -4,12 +4,15 @@
 
 #include "core/expression/graph.h"
 
+struct gm_linear_split {
+    gm_node_id line, rest;
+};
 /* Splits a node into line + rest, term by term of its sums. The line is linear in the variables marked in
    `fields`; its coefficients depend on no variable marked in `varying`, which includes the fields, so nothing
    of it cancels with the rest. A product with another field belongs to the rest. Returns false when out of
    memory. */
 bool gm_linear_part(struct gm_formula *graph, gm_node_id node, const bool *fields, const bool *varying,
-                    size_t variables, gm_node_id *line, gm_node_id *rest);
+                    size_t variables, struct gm_linear_split *split);
 /* True if a node is proved to be of degree 1 in the marked variables, for all values of the others: its second
    derivatives are 0. Works in a copy of the graph; out of memory sets graph->failed. */
 bool gm_is_affine(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);

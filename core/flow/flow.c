@@ -84,10 +84,10 @@ struct gm_flow *gm_flow_open(struct gm_complex *complex)
     return flow;
 }
 
-void gm_flow_close(struct gm_flow *flow)
+void gm_flow_close(void *flow)
 {
     if (flow) {
-        gm_arena_close(flow->arena);
+        gm_arena_close(((struct gm_flow *)flow)->arena);
     }
 }
 

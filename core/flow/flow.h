@@ -142,7 +142,7 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
 /* A flow that owns the complex, everything free and 0. Returns NULL, and closes the complex, when out of
    memory. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
-void gm_flow_close(struct gm_flow *flow);
+void gm_flow_close(void *flow); /* for arenas too */
 /* The flow with a boundary of its own, for `give`, in an arena of its own; the complex and sources still
    belong to `flow`. Returns NULL when out of memory. */
 struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);

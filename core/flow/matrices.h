@@ -69,10 +69,9 @@ void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values
 struct gm_cholesky *gm_unknowns_factor(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
                                        enum gm_cholesky_precision precision, double shift, double viscosity);
 
-/* Solves E' K psi = E' right (NULL: 0) for the unknown values of psi, the others being given in psi. b, x:
-   scratch, a number for each unknown. On a closed surface sum star0 psi = 0 afterwards. */
+/* Solves E' K psi = E' right (NULL: 0) for the unknown values of psi, the others being given in psi. b: scratch,
+   two numbers for each unknown. On a closed surface sum star0 psi = 0 afterwards. */
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                               struct gm_cholesky *factor, const double *right, double *b, double *x,
-                               double *psi);
+                               struct gm_cholesky *factor, const double *right, double *b, double *psi);
 
 #endif

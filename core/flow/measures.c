@@ -187,16 +187,15 @@ static double pressure_step(const struct gm_flow *flow, const double *y, size_t 
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure)
 {
     const struct gm_complex *complex = flow->complex;
-    int *queue = malloc(complex->triangles * sizeof *queue);
-    bool *met = calloc(complex->triangles, sizeof *met);
-    const bool good = queue && met && complex->boundary > 0;
-    size_t count = 0;
-    if (good) {
-        queue[count++] = 0;
-        met[0] = true;
-        pressure[0] = 0;
+    int *queue = complex->boundary > 0 ? calloc(2 * complex->triangles, sizeof *queue) : NULL;
+    if (!queue) {
+        return false;
     }
+    int *met = queue + complex->triangles; /* flags */
+    size_t count = 1;                      /* the first triangle is in the queue */
     double mean = 0;
+    met[0] = true;
+    pressure[0] = 0;
     for (size_t i = 0; i < count; i++) {
         const int t = queue[i];
         mean += complex->area[t] * pressure[t] / complex->total_area;
@@ -215,8 +214,7 @@ bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *press
         pressure[i] -= mean;
     }
     free(queue);
-    free(met);
-    return good;
+    return true;
 }
 
 double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t hole)
@@ -233,9 +231,9 @@ bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, dou
     const struct gm_complex *complex = flow->complex;
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
     double *pressure = malloc(complex->triangles * sizeof *pressure);
-    const bool good = pressure && gm_flow_pressure(flow, y, pressure);
+    const bool known = pressure && gm_flow_pressure(flow, y, pressure);
     force[0] = force[1] = 0;
-    for (size_t b = 0; good && b < complex->boundary; b++) {
+    for (size_t b = 0; known && b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[gm_complex_next(complex, b)];
         const size_t e = (size_t)complex->boundary_edge[b];
         if (flow->hole[v] != (int)hole) {
@@ -251,7 +249,7 @@ bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, dou
         force[1] += -here * x + friction * z;
     }
     free(pressure);
-    return good;
+    return known;
 }
 
 enum { NEAREST = 24, TERMS = 10, VALUES = 4 };
@@ -261,13 +259,21 @@ struct near {
     size_t index;
 };
 
+/* Values at points of a mesh, up to VALUES of them at each. */
+struct samples {
+    const struct gm_complex *complex;
+    const double *points;
+    size_t count;
+    const double *fields[VALUES]; /* NULL: 0 */
+};
+
 /* The points nearest to a place, with relative coordinates; on a torus their nearest images. */
-static size_t find_nearest(const struct gm_complex *complex, const double *points, size_t all, double x,
-                           double z, struct near nearest[NEAREST])
+static size_t find_nearest(const struct samples *samples, const double place[2], struct near nearest[NEAREST])
 {
+    const struct gm_complex *complex = samples->complex;
     size_t count = 0;
-    for (size_t v = 0; v < all; v++) {
-        double d[2] = {points[2 * v] - x, points[2 * v + 1] - z};
+    for (size_t v = 0; v < samples->count; v++) {
+        double d[2] = {samples->points[2 * v] - place[0], samples->points[2 * v + 1] - place[1]};
         for (int c = 0; c < 2; c++) {
             const double period = complex->period[c];
             d[c] -= period > 0 ? period * round(d[c] / period) : 0;
@@ -322,12 +328,11 @@ static void least_squares(double a[NEAREST][TERMS + VALUES], size_t rows, double
 
 /* Cubic polynomials fitted to values at the points nearest to a place. The first coefficients are the
    values there, and the derivatives times `scale`. Returns false with too few points. */
-static bool fit(const struct gm_complex *complex, const double *points, size_t all,
-                const double *const fields[VALUES], double x, double z, double solution[VALUES][TERMS],
+static bool fit(const struct samples *samples, const double at[2], double solution[VALUES][TERMS],
                 double *scale)
 {
     struct near nearest[NEAREST];
-    const size_t rows = find_nearest(complex, points, all, x, z, nearest);
+    const size_t rows = find_nearest(samples, at, nearest);
     if (rows < TERMS) {
         return false;
     }
@@ -343,7 +348,7 @@ static bool fit(const struct gm_complex *complex, const double *points, size_t a
             a[i][k] = weight * terms[k];
         }
         for (size_t s = 0; s < VALUES; s++) {
-            a[i][TERMS + s] = fields[s] ? weight * fields[s][near->index] : 0;
+            a[i][TERMS + s] = samples->fields[s] ? weight * samples->fields[s][near->index] : 0;
         }
     }
     least_squares(a, rows, solution);
@@ -353,11 +358,14 @@ static bool fit(const struct gm_complex *complex, const double *points, size_t a
 bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z, struct gm_sample *sample)
 {
     const struct gm_complex *complex = flow->complex;
-    const double *const fields[VALUES] = {y, gm_flow_block(flow, y, GM_FLOW_THETA),
-                                          gm_flow_block(flow, y, GM_FLOW_OMEGA),
-                                          flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL};
+    const struct samples samples = {complex,
+                                    complex->point,
+                                    complex->vertices,
+                                    {y, gm_flow_block(flow, y, GM_FLOW_THETA),
+                                     gm_flow_block(flow, y, GM_FLOW_OMEGA),
+                                     flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL}};
     double solution[VALUES][TERMS], scale;
-    if (!fit(complex, complex->point, complex->vertices, fields, x, z, solution, &scale)) {
+    if (!fit(&samples, (const double[]){x, z}, solution, &scale)) {
         return false;
     }
     *sample = (struct gm_sample){.psi = solution[0][0],
@@ -373,17 +381,18 @@ bool gm_flow_pressure_at(const struct gm_flow *flow, const double *y, double x, 
 {
     const struct gm_complex *complex = flow->complex;
     double *total = malloc(3 * complex->triangles * sizeof *total), solution[VALUES][TERMS], scale;
-    const double *const fields[VALUES] = {total};
     struct gm_sample sample;
-    bool good = total && gm_flow_pressure(flow, y, total) && gm_flow_sample(flow, y, x, z, &sample);
-    for (size_t t = 0; good && t < complex->triangles; t++) {
-        gm_complex_centre(complex, t, total + complex->triangles + 2 * t);
+    if (!total || !gm_flow_pressure(flow, y, total) || !gm_flow_sample(flow, y, x, z, &sample)) {
+        free(total);
+        return false;
     }
-    good =
-        good && fit(complex, total + complex->triangles, complex->triangles, fields, x, z, solution, &scale);
-    if (good) {
-        *pressure = solution[0][0] - (sample.u * sample.u + sample.v * sample.v) / 2;
+    double *centres = total + complex->triangles;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        gm_complex_centre(complex, t, centres + 2 * t);
     }
+    const struct samples samples = {complex, centres, complex->triangles, {total}};
+    const bool fits = fit(&samples, (const double[]){x, z}, solution, &scale);
+    *pressure = fits ? solution[0][0] - (sample.u * sample.u + sample.v * sample.v) / 2 : NAN;
     free(total);
-    return good;
+    return fits;
 }

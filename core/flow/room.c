@@ -1161,9 +1161,9 @@ static bool give_with(struct moment moment, struct gm_fault *fault)
     struct gm_room *room = (struct gm_room *)(uintptr_t)moment.flow->given_by;
     struct gm_fault *const before = room->system.fault;
     room->system.fault = fault;
-    const bool good = gm_arena_run(room->system.arena, set_moment, &moment);
+    const bool valid = gm_arena_run(room->system.arena, set_moment, &moment);
     room->system.fault = before;
-    return good;
+    return valid;
 }
 
 static bool give(const struct gm_flow *flow, double t, struct gm_flow *now)
@@ -1200,18 +1200,13 @@ static void widen(struct gm_flow *flow, const struct gm_flow *now)
     flow->temperature_range[1] = fmax(flow->temperature_range[1], high + (most > 0 ? heated : 0));
 }
 
-static void close_flow(void *flow)
-{
-    gm_flow_close(flow);
-}
-
 /* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end,
    sampled at some moments. */
 static void look_ahead(const struct gm_room *room, struct gm_flow *flow)
 {
     enum { MOMENTS = 64 };
     const double until = gm_room_timing(room, GM_WORD_UNTIL, 10);
-    struct gm_flow *now = gm_arena_keep(room->system.arena, gm_flow_open_now(flow), close_flow);
+    struct gm_flow *now = gm_arena_keep(room->system.arena, gm_flow_open_now(flow), gm_flow_close);
     flow->give = give;
     for (int k = 1; k <= MOMENTS; k++) {
         if (give(flow, until * k / MOMENTS, now)) { /* else the run reports it at that time */
@@ -1234,7 +1229,7 @@ static void make_flow(struct gm_arena *arena, void *data)
     struct making *making = data;
     struct gm_room *room = making->room;
     struct gm_flow *flow = making->flow =
-        gm_arena_keep(arena, gm_flow_open(making->mesh->complex), close_flow);
+        gm_arena_keep(arena, gm_flow_open(making->mesh->complex), gm_flow_close);
     const struct gm_complex *complex = flow->complex;
     flow->given_by = room;
     flow->side_of = gm_arena_take(arena, complex->boundary + 1, 1);
@@ -1280,9 +1275,9 @@ struct gm_flow *gm_room_flow(struct gm_room *room, struct gm_triangulation *mesh
     struct making making = {.room = room, .mesh = mesh};
     *fault = (struct gm_fault){0};
     room->system.fault = fault;
-    const bool good = gm_arena_run(room->system.arena, make_flow, &making);
+    const bool made = gm_arena_run(room->system.arena, make_flow, &making);
     mesh->complex = NULL;
-    return good ? making.flow : NULL;
+    return made ? making.flow : NULL;
 }
 
 const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,

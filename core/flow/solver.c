@@ -57,8 +57,8 @@ static void take_memory(struct gm_flow_solver *solver)
     solver->field = gm_arena_take(arena, v, sizeof(double));
     solver->velocities = gm_arena_take(arena, 3 * v, sizeof(double));
     solver->carried_rate = gm_arena_take(arena, v, sizeof(double));
-    solver->b = gm_arena_take(arena, z + solver->warm, sizeof(double));
-    solver->x = gm_arena_take(arena, z + solver->warm, sizeof(double));
+    solver->b = gm_arena_take(arena, 2 * (z + solver->warm), sizeof(double));
+    solver->x = solver->b + z + solver->warm;
     solver->small_b = gm_arena_take(arena, z, sizeof(double));
     solver->bicgstab = gm_arena_take(arena, 8 * v, sizeof(double));
     solver->transport = gm_transport_of(arena, complex);
@@ -85,8 +85,7 @@ static double energy_limit(struct gm_flow_solver *solver)
         return INFINITY;
     }
     memcpy(solver->rate, flow->psi, flow->complex->vertices * sizeof *solver->rate);
-    gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, NULL, solver->b, solver->x,
-                              solver->rate);
+    gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, NULL, solver->b, solver->rate);
     const double largest = gm_flow_largest_speed(flow, solver->rate);
     return largest * largest * flow->complex->total_area;
 }
@@ -103,18 +102,13 @@ static bool is_vorticity_form(const struct gm_flow *flow)
     return true;
 }
 
-static void close_flow(void *flow)
-{
-    gm_flow_close(flow);
-}
-
 /* Opens the solver of the flow that the data points to, and lets it point to the solver. */
 static void open_solver(struct gm_arena *arena, void *data)
 {
     const struct gm_flow *flow = *(const void **)data;
     struct gm_flow_solver *solver = gm_arena_take(arena, 1, sizeof *solver);
     solver->arena = arena;
-    solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), close_flow) : NULL;
+    solver->now = flow->give ? gm_arena_keep(arena, gm_flow_open_now(flow), gm_flow_close) : NULL;
     solver->flow = flow->give ? solver->now : flow;
     solver->energy_limit = INFINITY;
     solver->vorticity_form = is_vorticity_form(flow);

@@ -29,7 +29,7 @@ struct gm_flow_solver {
     double *flux, *centre;               /* edges, triangles */
     double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
     double *carried_rate;                /* vertices */
-    double *b, *x;                       /* unknowns, soft and warm vertices */
+    double *b, *x;                       /* unknowns, soft and warm vertices; one after the other */
     double *small_b;                     /* unknowns, scratch of the preconditioner */
     double *gmres, *bicgstab;
 };

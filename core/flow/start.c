@@ -21,8 +21,7 @@ static void solve(struct gm_arena *arena, void *data)
         struct gm_cholesky *factor = gm_arena_keep(
             arena, gm_unknowns_factor(&unknowns, poisson->flow, GM_CHOLESKY_EXACT, 1, 0), gm_cholesky_close);
         double *b = gm_arena_take(arena, 2 * unknowns.count, sizeof *b);
-        gm_unknowns_solve_poisson(&unknowns, poisson->flow, factor, poisson->right, b, b + unknowns.count,
-                                  poisson->psi);
+        gm_unknowns_solve_poisson(&unknowns, poisson->flow, factor, poisson->right, b, poisson->psi);
     }
 }
 

@@ -136,10 +136,10 @@ struct gm_cholesky *gm_unknowns_factor(const struct gm_unknowns *unknowns, const
 }
 
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                               struct gm_cholesky *factor, const double *right, double *b, double *x,
-                               double *psi)
+                               struct gm_cholesky *factor, const double *right, double *b, double *psi)
 {
     const struct gm_complex *complex = flow->complex;
+    double *x = b + unknowns->count;
     if (unknowns->closed) {
         psi[0] = 0;
     }

@@ -427,7 +427,7 @@ bool gm_lu_solve(size_t n, const int *start, const int *column, const double *va
                  double *x)
 {
     struct gm_lu *lu = gm_lu_open(n, start, column, value);
-    const bool good = lu && gm_lu_apply(lu, b, x);
+    const bool solved = lu && gm_lu_apply(lu, b, x);
     gm_lu_close(lu);
-    return good;
+    return solved;
 }

@@ -30,15 +30,15 @@ static bool solve(void *data)
     gsl_eigen_nonsymm_workspace *workspace = gsl_eigen_nonsymm_alloc(work->n);
     gsl_vector_complex *values = gsl_vector_complex_alloc(work->n);
     gsl_matrix_view view = gsl_matrix_view_array(work->matrix, work->n, work->n);
-    const bool good =
+    const bool solved =
         workspace && values && gsl_eigen_nonsymm(&view.matrix, values, workspace) == GSL_SUCCESS;
-    for (size_t i = 0; good && i < work->n; i++) {
+    for (size_t i = 0; solved && i < work->n; i++) {
         work->real[i] = GSL_REAL(gsl_vector_complex_get(values, i));
         work->imaginary[i] = GSL_IMAG(gsl_vector_complex_get(values, i));
     }
     gsl_eigen_nonsymm_free(workspace);
     gsl_vector_complex_free(values);
-    return good;
+    return solved;
 }
 
 bool gm_eigenvalues(double *matrix, size_t n, double *real, double *imaginary)

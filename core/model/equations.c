@@ -1122,12 +1122,15 @@ bool gm_system_linear_part(struct gm_user_system *system, gm_node_id node, gm_no
         fields[i] = i < system->n || (i > system->velocities && i < system->initial);
         varying[i] = i < system->parameters || i >= system->velocities;
     }
-    const bool good =
-        fields && varying &&
-        gm_linear_part(&system->graph, node, fields, varying, system->variable_count, line, rest);
+    struct gm_linear_split split = {GM_NO_NODE, GM_NO_NODE};
+    system->graph.failed |=
+        !fields || !varying ||
+        !gm_linear_part(&system->graph, node, fields, varying, system->variable_count, &split);
+    *line = split.line;
+    *rest = split.rest;
     free(fields);
     free(varying);
-    return good;
+    return !system->graph.failed;
 }
 
 static void check_masses(struct gm_user_system *system)
@@ -1304,10 +1307,10 @@ bool gm_equations_derive(struct gm_user_system *system, struct gm_fault *fault)
 bool gm_equations_open(struct gm_user_system *system, const char *text, size_t length,
                        const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
-    const bool good =
+    const bool derived =
         gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
     bool named = false;
-    for (size_t i = system->choices.count; i > 0 && !good && fault->sentence[0]; i--) {
+    for (size_t i = system->choices.count; i > 0 && !derived && fault->sentence[0]; i--) {
         const struct gm_written_choice *choice = &system->choices.list[i - 1];
         const struct gm_fault plain = *fault;
         if (choice->chosen != choice->standard) {
@@ -1317,5 +1320,5 @@ bool gm_equations_open(struct gm_user_system *system, const char *text, size_t l
             named = true;
         }
     }
-    return good;
+    return derived;
 }

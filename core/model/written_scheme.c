@@ -371,10 +371,10 @@ static bool read_formula(struct reading *reading, struct gm_span span, gm_node_i
 {
     const struct gm_scope scope = {
         .find = find, .known = known, .decimal = decimal, .data = reading, .lines = true};
-    const bool good =
+    const bool complete =
         gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, node, reading->fault);
-    gm_arena_need(reading->arena, good || (!reading->graph.failed && !reading->fault->sentence[0]));
-    return good;
+    gm_arena_need(reading->arena, complete || (!reading->graph.failed && !reading->fault->sentence[0]));
+    return complete;
 }
 
 static void name_let(struct reading *reading, int i)
@@ -662,8 +662,8 @@ static void read_order(struct reading *reading)
     const struct gm_written_line *order = &reading->scheme->lines[GM_SCHEME_WORD_ORDER];
     for (size_t i = order->value.begin; i < order->value.end; i++) {
         const char digit = reading->text[i];
-        const bool good = digit >= '0' && digit <= '9' && reading->scheme->order <= MOST;
-        reading->scheme->order = good ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
+        const bool fits = digit >= '0' && digit <= '9' && reading->scheme->order <= MOST;
+        reading->scheme->order = fits ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
     }
     fail_if(reading, order->said && (reading->scheme->order == 0 || reading->scheme->order > MOST),
             order->value.begin, "order: is a whole number from 1 to %d", MOST);
@@ -736,9 +736,9 @@ bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t 
                               .span = gm_span_trimmed(text, (struct gm_span){begin, end}),
                               .gathered = decimals,
                               .fault = fault};
-    const bool good = gm_arena_run(scheme->arena, read, &reading);
+    const bool opened = gm_arena_run(scheme->arena, read, &reading);
     gm_ball_forget();
-    return good;
+    return opened;
 }
 
 void gm_written_close(void *written)

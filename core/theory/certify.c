@@ -161,12 +161,12 @@ static struct gm_run *make_steps(const struct gm_trial *trial, const double *sta
 bool gm_trial_advance(const struct gm_trial *trial, const double *start, double *end)
 {
     struct gm_run *run = make_steps(trial, start);
-    const bool good = run && run->status == GM_OK;
+    const bool advanced = run && run->status == GM_OK;
     if (run) {
         copy_state(run, end);
     }
     gm_run_close(run);
-    return good;
+    return advanced;
 }
 
 static void reflect(const struct gm_trial *trial, double *y)
@@ -195,13 +195,13 @@ bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool refle
     if (reflected || push != 0 || trial->scheme->family->doubled) {
         set_state(run, end);
     }
-    const bool good = gm_run_advance(run, trial->steps) == GM_OK;
+    const bool returned = gm_run_advance(run, trial->steps) == GM_OK;
     copy_state(run, end);
     if (reflected) {
         reflect(trial, end);
     }
     gm_run_close(run);
-    return good;
+    return returned;
 }
 
 struct solution {
@@ -287,13 +287,13 @@ void gm_certificate_note_same(struct gm_certificate *certificate, const struct g
     if (!ends) {
         return;
     }
-    const bool good = gm_trial_advance(&trial, start, ends) && gm_trial_advance(&twin, start, ends + n);
+    const bool advanced = gm_trial_advance(&trial, start, ends) && gm_trial_advance(&twin, start, ends + n);
     for (size_t c = 0; c < n; c++) {
         size = fmax(size, fabs(ends[c]));
     }
     const double difference = gm_distance(ends, ends + n, n) / (size > 0 ? size : 1);
     struct gm_sameness *same = &certificate->same;
-    if (good && (!same->other || !(difference <= same->difference))) {
+    if (advanced && (!same->other || !(difference <= same->difference))) {
         *same =
             (struct gm_sameness){.other = twin.scheme, .difference = difference, .problem = problem->name};
     }

@@ -229,9 +229,7 @@ struct residuals {
 
 static void take(struct residuals *all, struct gm_ball residual)
 {
-    if ((all->count & (all->count - 1)) == 0) {
-        all->at = gm_arena_resize(all->arena, all->at, all->count ? 2 * all->count : 1, sizeof *all->at);
-    }
+    all->at = gm_arena_grown(all->arena, all->at, all->count, sizeof *all->at);
     all->at[all->count++] = residual;
 }
 

@@ -148,12 +148,12 @@ bool gm_user_line_numbers(const struct gm_user_system *system, const gm_node_id 
                           const double *values, double *numbers)
 {
     struct gm_tape tape;
-    const bool good = gm_tape_open(&tape, &system->graph, nodes, count, 0, values);
-    if (good) {
+    const bool opened = gm_tape_open(&tape, &system->graph, nodes, count, 0, values);
+    if (opened) {
         gm_tape_values(&tape, NULL, numbers, 1);
     }
     gm_tape_close(&tape);
-    return good;
+    return opened;
 }
 
 /* Returns true if number i of a block is finite, the component and its derivatives; else false with the suffix. */

@@ -405,20 +405,20 @@ static bool read_texts(const char *path, struct search *search, char *message)
     unsigned char signature[SIGNATURE];
     size_t size = 0;
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
-    const bool good = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
-                      png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
-                      find_texts(file, size - SIGNATURE, search, reason);
+    const bool found = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
+                       png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
+                       find_texts(file, size - SIGNATURE, search, reason);
     if (file) {
         fclose(file);
     }
-    if (!good) {
+    if (!found) {
         for (size_t i = 0; i < search->count; i++) {
             free(search->texts[i]);
             search->texts[i] = NULL;
         }
         gm_refuse(message, "cannot read %.360s: %s", path, reason);
     }
-    return good;
+    return found;
 }
 
 bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
@@ -492,12 +492,12 @@ bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, ch
     char reason[GM_REGULAR_REASON];
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
     int error = 0; /* errno, when memory is short */
-    const bool good = file && read_pixels(file, width, height, rgb, &error, reason);
+    const bool taken = file && read_pixels(file, width, height, rgb, &error, reason);
     if (file) {
         fclose(file);
     }
-    if (!good) {
+    if (!taken) {
         gm_refuse(message, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
     }
-    return good;
+    return taken;
 }

@@ -226,9 +226,9 @@ bool gm_sink_flush(struct gm_sink *sink)
     while (!sink->failed && sink->idle_count < sink->made) {
         pthread_cond_wait(&sink->vacant, &sink->lock);
     }
-    const bool good = !sink->failed;
+    const bool whole = !sink->failed;
     pthread_mutex_unlock(&sink->lock);
-    return good;
+    return whole;
 }
 
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
@@ -238,12 +238,12 @@ bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
     if (!sink->kind->close(sink->self, keep && !sink->failed, late)) {
         note_failure(sink, late);
     }
-    bool good = !sink->failed;
-    if (!good) {
+    bool whole = !sink->failed;
+    if (!whole) {
         gm_refuse(message, "%s", sink->message);
     }
     release(sink);
-    return good;
+    return whole;
 }
 
 /* ---- PNG files ---- */

@@ -341,7 +341,7 @@ static bool close_movie(void *argument, bool keep, char *message)
     if (self->input >= 0) {
         close(self->input);
     }
-    bool good = !keep || complete(self, message);
+    bool finished = !keep || complete(self, message);
     if (self->ffmpeg > 0) {
         end_ffmpeg(self);
     }
@@ -357,7 +357,7 @@ static bool close_movie(void *argument, bool keep, char *message)
     free(self->log);
     free(self->path);
     free(self);
-    return good;
+    return finished;
 }
 
 static int first_pass(struct movie_sink *self, int input)

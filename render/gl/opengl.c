@@ -557,8 +557,8 @@ struct gm_opengl *gm_opengl_open(enum gm_context_kind kind, int width, int heigh
     *opengl = (struct gm_opengl){.engine = engine, .width = width, .height = height, .theme = theme};
     take_turn();
     const bool here = is_here(message);
-    const bool good = use_alone(engine, message) && framebuffer_open(opengl, message);
-    if (good) {
+    const bool opened = use_alone(engine, message) && framebuffer_open(opengl, message);
+    if (opened) {
         textures_open(opengl);
     } else {
         close_alone(opengl);
@@ -567,7 +567,7 @@ struct gm_opengl *gm_opengl_open(enum gm_context_kind kind, int width, int heigh
         }
     }
     end_turn(engine);
-    return good ? opengl : NULL;
+    return opened ? opengl : NULL;
 }
 
 void gm_opengl_close(struct gm_opengl *opengl)

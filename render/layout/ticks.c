@@ -20,10 +20,10 @@ static const double few_decades = 1.5;
 void gm_axis_shown(const struct gm_axis *axis, double *low, double *high)
 {
     const bool log = axis->scale == GM_LOG;
-    const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
-                      isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
-    *low = good ? axis->low : log ? 0.1 : 0.0;
-    *high = good ? axis->high : 1.0;
+    const bool spans = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
+                       isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
+    *low = spans ? axis->low : log ? 0.1 : 0.0;
+    *high = spans ? axis->high : 1.0;
 }
 
 /* Returns mantissa * 10^exponent, as exact as can be. */

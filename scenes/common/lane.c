@@ -566,15 +566,16 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
     const unsigned long refusals = gm_memory_refusals();
     struct gm_arena *arena = gm_arena_open();
     struct opening opening = {scene, parameters, settings, scheme, sentence, NULL};
-    bool good = gm_arena_run(arena, open_lane, &opening) || gm_refuse(sentence, "%s", gm_arena_reason(arena));
+    bool opened =
+        gm_arena_run(arena, open_lane, &opening) || gm_refuse(sentence, "%s", gm_arena_reason(arena));
     if (gm_memory_refusals() != refusals) {
         /* some failures go unreported: a start, an observable, or a search for a mesh */
-        good = gm_refuse(sentence, "not enough memory");
+        opened = gm_refuse(sentence, "not enough memory");
     }
-    if (!good) {
+    if (!opened) {
         gm_arena_close(arena);
     }
-    return good ? opening.lane : NULL;
+    return opened ? opening.lane : NULL;
 }
 
 bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence)

@@ -109,6 +109,23 @@ void gm_written_options(struct gm_observable *observable, const struct gm_system
     observable->logarithmic = observable->logarithmic || gm_system_option(item, GM_OPTION_LOG);
 }
 
+void gm_written_work(struct gm_work *work, const struct gm_system_item *item)
+{
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
+                                  *values = gm_system_option(item, GM_OPTION_VALUES);
+    const double halvings = gm_system_option_number(item, GM_OPTION_HALVINGS, work->halvings);
+    work->arguments = item->words;
+    work->measure = gm_system_option_text(item, GM_OPTION_MEASURE, work->measure);
+    work->coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, work->coarsest);
+    work->halvings = (int)fmin(fmax(0, halvings), 31);
+    work->errors = errors ? errors->numbers : work->errors;
+    if (values) {
+        work->resolution = item->name;
+        work->resolutions = values->numbers;
+        work->resolution_count = values->count;
+    }
+}
+
 void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene)
 {
     const struct gm_system_item *item;

@@ -33,6 +33,9 @@ bool gm_listed_word(const char **list, char *word, size_t size);
 /* Applies the options of a system's line to its observable: title, unit, angle, log, missing. */
 void gm_written_options(struct gm_observable *observable, const struct gm_system_item *item);
 
+/* Takes the line work: into a work; what the line leaves out stays. The caller checks the names. */
+void gm_written_work(struct gm_work *work, const struct gm_system_item *item);
+
 /* Takes the lines figure: of a system into its scene. */
 void gm_written_figures(struct gm_arena *arena, const struct gm_user_system *system, struct gm_scene *scene);
 

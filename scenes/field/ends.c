@@ -236,13 +236,13 @@ static bool open_burgers(struct gm_problem *problem, const struct gm_system_lane
     const double more = fmin(round(fabs(travel) / grid.dx), MOST_NODES);
     grid.first += gm_frames_number(system, values, "offset", 0) * grid.dx - (travel < 0 ? more * grid.dx : 0);
     grid.points += (size_t)more;
-    const bool good = gm_user_equation_open(problem, &gm_user_field_of(lane)->equation, values, &grid);
-    if (good) {
+    const bool derived = gm_user_equation_open(problem, &gm_user_field_of(lane)->equation, values, &grid);
+    if (derived) {
         struct gm_burgers *opened = (struct gm_burgers *)problem->parameters;
         opened->framed.frame = lane->grid.frame;
         opened->printed = lane->grid.printed;
     }
-    return good;
+    return derived;
 }
 
 /* Behind the field its companion in the frame at rest. */

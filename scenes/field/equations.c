@@ -25,11 +25,11 @@ bool gm_equation_open(struct gm_problem *problem, const struct gm_system_lane *l
 {
     const struct gm_user_field *field = gm_user_field_of(lane);
     const struct gm_grid1 grid = field->kind->paint ? gm_field_between_ends(lane) : gm_field_grid(lane);
-    const bool good = gm_user_equation_open(problem, &field->equation, values, &grid);
-    if (good && field->kind->frame_shown) {
+    const bool opened = gm_user_equation_open(problem, &field->equation, values, &grid);
+    if (opened && field->kind->frame_shown) {
         ((struct gm_framed *)problem->parameters)->frame = lane->grid.frame;
     }
-    return good;
+    return opened;
 }
 
 void gm_equation_start(const struct gm_problem *problem, double *y)

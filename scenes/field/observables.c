@@ -209,14 +209,14 @@ static double integral_of(const struct gm_view *view, bool magnitude)
     double *profile = kind->profile ? kind->profile(view) : NULL;
     const struct gm_user_system *system = &of_file->system;
     double *inputs = malloc(system->variable_count * BATCH * sizeof *inputs);
-    const bool good = values && inputs && (profile || !kind->profile);
-    double weights[BATCH], densities[BATCH], sum = good ? 0 : NAN;
+    const bool ready = values && inputs && (profile || !kind->profile);
+    double weights[BATCH], densities[BATCH], sum = ready ? 0 : NAN;
     struct gm_view placed = *view;
     placed.state = profile ? profile : view->state;
-    for (size_t i = 0; good && i < system->variable_count * BATCH; i++) {
+    for (size_t i = 0; ready && i < system->variable_count * BATCH; i++) {
         inputs[i] = values[i / BATCH];
     }
-    size_t some = good ? BATCH : 0;
+    size_t some = ready ? BATCH : 0;
     for (size_t first = 0; some == BATCH; first += BATCH) {
         for (some = 0; some < BATCH && kind->place(&placed, first + some, values, &weights[some]); some++) {
             for (size_t c = 0; c < system->initial; c += c + 1 == system->n ? system->velocities - c : 1) {

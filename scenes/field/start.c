@@ -191,14 +191,14 @@ static bool check_start(const struct gm_system_lane *lane, const struct gm_probl
         .problem = problem, .parameters = lane, .state = y, .start = y, .t0 = t0, .t = t0};
     const bool written =
         field->of_file.system.variables[0].start_place > 0; /* else it is the exact solution */
-    const bool good = y ? (field->kind->closes || is_finite(field, problem, y, sentence)) &&
+    const bool fits = y ? (field->kind->closes || is_finite(field, problem, y, sentence)) &&
                               (!field->solved || !written || !gm_field_holds(&view) ||
                                begins_exactly(&view, &grid, sentence)) &&
                               (field->kind != &gm_field_waves ||
                                has_levels(problem, field->of_file.system.variables[0].name, y, sentence))
                         : gm_refuse(sentence, "not enough memory");
     free(y);
-    return good;
+    return fits;
 }
 
 bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *sentence)
@@ -213,17 +213,17 @@ bool gm_field_setup(const void *parameters, struct gm_problem *problem, char *se
         free(values);
         return false;
     }
-    bool good = kind->open(problem, lane, values) || gm_refuse(sentence, "not enough memory");
+    bool opened = kind->open(problem, lane, values) || gm_refuse(sentence, "not enough memory");
     problem->name = lane->owner->scene.name;
     free(values);
     /* the program's own files are right: values that are typed may be wrong */
     const bool trusted = lane == lane->owner->initial && !lane->owner->scene.words;
-    good = good && (!kind->admits || kind->admits(lane, problem, sentence)) &&
-           (trusted || check_start(lane, problem, sentence));
-    if (!good) {
+    opened = opened && (!kind->admits || kind->admits(lane, problem, sentence)) &&
+             (trusted || check_start(lane, problem, sentence));
+    if (!opened) {
         gm_user_line_close(problem);
     }
-    return good;
+    return opened;
 }
 
 /* Sets the parameter `position`, if the start depends on it. */

@@ -123,15 +123,15 @@ void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, str
     }
 }
 
-static void write_sample(const struct gm_view *view, const char *front, const char *name, double x, double z,
+static void write_sample(const struct gm_view *view, const char *front, const char *name, const double at[2],
                          double reference, FILE *stream)
 {
     struct gm_sample s;
-    if (!gm_flow_sample(gm_flow_of(view->problem), view->state, x, z, &s)) {
+    if (!gm_flow_sample(gm_flow_of(view->problem), view->state, at[0], at[1], &s)) {
         return;
     }
-    fprintf(stream, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,", front, name, x, z, s.psi, s.u, s.v,
-            s.theta, s.omega);
+    fprintf(stream, "%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,", front, name, at[0], at[1], s.psi, s.u,
+            s.v, s.theta, s.omega);
     if (!isnan(reference)) {
         fprintf(stream, "%.17g", reference);
     }
@@ -148,7 +148,7 @@ void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE 
             const double *point = table->options->numbers + 2 * k;
             double at[2] = {ends[0], ends[1]};
             at[along(ends)] = point[0];
-            write_sample(view, front, table->name, at[0], at[1], point[1], stream);
+            write_sample(view, front, table->name, at, point[1], stream);
         }
     }
     for (size_t i = 0; (profile = gm_system_item_of(system, GM_WORD_PROFILE, i)); i++) {
@@ -158,7 +158,7 @@ void gm_room_write_profiles(const struct gm_view *view, const char *front, FILE 
         for (size_t k = 0; k < count; k++) {
             const double s = (double)k / (double)(count - 1),
                          at[2] = {ends[0] + s * (ends[2] - ends[0]), ends[1] + s * (ends[3] - ends[1])};
-            write_sample(view, front, profile->name, at[0], at[1],
+            write_sample(view, front, profile->name, at,
                          quantity ? gm_room_exact(view, gm_room_key_of(quantity), at) : NAN, stream);
         }
     }

@@ -235,19 +235,13 @@ static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 /* work: WORDS; measure KEY; ... */
 static void make_work(struct gm_user_room *user_room, const struct gm_system_item *item)
 {
-    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
-                                  *values = gm_system_option(item, GM_OPTION_VALUES);
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS);
     struct gm_work *work = &user_room->work;
-    *work = (struct gm_work){
-        .arguments = check_words(user_room, item->words, item->place),
-        .measure = gm_system_option_text(item, GM_OPTION_MEASURE, NULL),
-        .coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, 0),
-        .halvings = (int)fmin(fmax(0, gm_system_option_number(item, GM_OPTION_HALVINGS, 4)), 31),
-        .schemes = list_schemes(user_room, gm_system_option_text(item, GM_OPTION_SCHEMES, NULL), item->place),
-        .errors = errors ? errors->numbers : NULL,
-        .resolution = values ? item->name : NULL,
-        .resolutions = values ? values->numbers : NULL,
-        .resolution_count = values ? values->count : 0};
+    *work = (struct gm_work){.halvings = 4};
+    gm_written_work(work, item);
+    check_words(user_room, item->words, item->place);
+    work->schemes =
+        list_schemes(user_room, gm_system_option_text(item, GM_OPTION_SCHEMES, NULL), item->place);
     check_observable(user_room, work->measure, item->place);
     gm_system_refuse_if(&user_room->room.system,
                         (errors && errors->count != 3) || work->halvings < 1 || work->halvings > 30,

@@ -61,10 +61,10 @@ static bool read_file(const char *path, const struct gm_built_in *inside, enum g
         return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
     }
     struct gm_triangulation_fault fault;
-    const bool good = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
+    const bool read = gm_triangulation_read(inside ? inside->text : text, inside ? inside->length : size,
                                             star, mesh, &fault);
     free(text);
-    return good || explain(path, &fault, sentence);
+    return read || explain(path, &fault, sentence);
 }
 
 /* Cuts each edge of the mesh of a file into `parts`, a power of two. */
@@ -109,11 +109,11 @@ static bool open_mesh(const struct gm_flows *flows, const struct gm_room *room, 
     if (!read_file(path, user_room->inside, star, mesh, sentence)) {
         return false;
     }
-    const bool good = !room || flows->refine < 2 || refine(path, star, flows->refine, mesh, sentence);
-    if (!good) {
+    if (room && flows->refine > 1 && !refine(path, star, flows->refine, mesh, sentence)) {
         gm_triangulation_close(mesh);
+        return false;
     }
-    return good;
+    return true;
 }
 
 /* The observables of an opening, a probe, a wall and a hole. */
@@ -382,11 +382,11 @@ static bool start(const void *parameters, const struct gm_problem *problem, cons
     const struct gm_flow *flow = gm_flow_of(problem);
     const struct gm_fault fault = {.sentence =
                                        "the boundary does not determine the stream function at the start"};
-    const bool good = gm_flow_start(flow, flow->vorticity, y);
-    if (!good) { /* when out of memory, the lane's sentence stays */
+    const bool started = gm_flow_start(flow, flow->vorticity, y);
+    if (!started) { /* when out of memory, the lane's sentence stays */
         tell(gm_user_room_of(parameters), &fault, sentence);
     }
-    return good;
+    return started;
 }
 
 /* Returns true if heat is carried and nothing takes it away. */
@@ -455,12 +455,10 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
 
 static bool readable(const void *parameters, char *sentence)
 {
-    struct gm_triangulation mesh;
-    const bool good = has_rectangle(parameters) || open_mesh(parameters, NULL, &mesh, sentence);
-    if (good && !has_rectangle(parameters)) {
-        gm_triangulation_close(&mesh);
-    }
-    return good;
+    struct gm_triangulation mesh = {0};
+    const bool opened = has_rectangle(parameters) || open_mesh(parameters, NULL, &mesh, sentence);
+    gm_triangulation_close(&mesh);
+    return opened;
 }
 
 /* Notes the star that was used if the choice was left to the mesh. */
@@ -641,11 +639,6 @@ static void find_mesh(struct gm_user_room *user_room)
     }
 }
 
-static void close_mesh(void *mesh)
-{
-    gm_triangulation_close(mesh);
-}
-
 /* A scene while it is made, and the fault of its file. */
 struct making {
     const struct gm_room_file *file;
@@ -714,7 +707,7 @@ static void make(struct gm_arena *arena, void *data)
         find_mesh(user_room);
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
         user_room->scene.work = &work;
-        gm_arena_keep(arena, mesh, close_mesh);
+        gm_arena_keep(arena, mesh, gm_triangulation_close);
         if (!open_mesh(&user_room->initial, NULL, mesh, sentence)) {
             gm_arena_refuse(arena, "%s", sentence);
         }

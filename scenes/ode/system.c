@@ -207,10 +207,10 @@ static bool open_problem(const struct gm_system_lane *lane, double *values, stru
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     double *values = gm_system_start_values(parameters, NULL);
-    const bool good = values ? open_problem(parameters, values, problem, sentence)
-                             : gm_refuse(sentence, "not enough memory");
+    const bool opened = values ? open_problem(parameters, values, problem, sentence)
+                               : gm_refuse(sentence, "not enough memory");
     free(values);
-    return good;
+    return opened;
 }
 
 /* Sets a member's start relative to the last one, the centre. A grid has as many rows as make a square; its

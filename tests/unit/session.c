@@ -291,7 +291,7 @@ static void names_follow_changes(void **unused)
     const struct gm_shown *shown = &session.lanes[1]->shown;
     assert_string_equal(session.lanes[0]->shown.panel_name, "RK4, Δt = 0.05, eccentricity = 0.2");
     const struct gm_parameter *dt = gm_scene_parameter(session.log.scene, "dt");
-    assert_true(gm_session_set(&session, 1, dt, false, "0.025", &restart, message));
+    assert_true(gm_session_set(&session, 1, dt, "0.025", &restart, message));
     assert_string_equal(shown->panel_name, "Verlet, Δt = 0.025, eccentricity = 0.3");
     assert_true(gm_session_switch(&session, 1, gm_scheme_find("rk4sym"), message));
     assert_string_equal(session.lanes[1]->shown.panel_name, "RK4sym, Δt = 0.025, eccentricity = 0.3");
@@ -317,7 +317,7 @@ static void words_are_whole(void **unused)
         assert_true(gm_request_parse(&request, 3, typed[i], 1, message));
         assert_true(gm_session_open(&session, &request, message));
         const struct gm_parameter *until = gm_scene_parameter(session.scene, "until");
-        assert_true(gm_session_set(&session, 0, until, false, "3", &restart, message));
+        assert_true(gm_session_set(&session, 0, until, "3", &restart, message));
         assert_true(gm_session_restart(&session, message)); /* these are not the typed words any more */
         char *text = gm_request_format(&session.log);
         struct gm_arguments words = {0};
@@ -365,7 +365,7 @@ static void ranges_hold(void **unused)
         struct gm_request refused;
         assert_false(gm_request_parse(&refused, 2, line, 1, typed));
         const struct gm_parameter *row = gm_scene_parameter(session.scene, wrong[i][0]);
-        assert_false(gm_session_set(&session, 0, row, false, wrong[i][1], &restart, message));
+        assert_false(gm_session_set(&session, 0, row, wrong[i][1], &restart, message));
         assert_string_equal(message, typed);
     }
     assert_true(session.lanes[0]->run->dt == ((const struct gm_timing *)request.lanes[0].parameters)->dt);

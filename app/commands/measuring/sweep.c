@@ -147,11 +147,6 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     return is_drawn(options) && !options->pace.shards ? paint(sweep, options, path) : GM_EXIT_OK;
 }
 
-static void name_missing(size_t run, const char *words)
-{
-    gm_complain("run %zu has no row: geomint %s", run, words);
-}
-
 static int join(const struct gm_options *options, struct gm_sweep *sweep)
 {
     if (options->arguments.count > 0) {
@@ -160,7 +155,7 @@ static int join(const struct gm_options *options, struct gm_sweep *sweep)
     }
     *options->end = GM_EXIT_FILE;
     gm_sweep_recall(options->arena, sweep, options->join);
-    const size_t missing = gm_sweep_join(sweep, options->join, name_missing);
+    const size_t missing = gm_sweep_join(sweep, options->join);
     if (missing > 0) {
         return gm_give_up(
             GM_EXIT_FILE, "%s has %zu of %zu row%s; run the incomplete shards again, then join again",

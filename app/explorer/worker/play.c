@@ -318,11 +318,6 @@ void gm_play_watch_frozen(struct gm_play *play)
 
 /* ---- orders: what failed is in the next shot ---- */
 
-static bool is_of_scheme(const struct gm_parameter *row)
-{
-    return row >= gm_settings_parameters && row < gm_settings_parameters + gm_settings_parameter_count;
-}
-
 /* ---- undoing ---- */
 
 /* the lane of a change that every lane has */
@@ -350,8 +345,7 @@ static bool undo(struct gm_play *play, char *message)
     const size_t lane = order->value == all_lanes ? play->selected : (size_t)order->value;
     const bool scheme = order->kind == GM_ORDER_SWITCH;
     if (scheme ? !gm_session_switch(&play->session, lane, order->scheme, message)
-               : !gm_session_set(&play->session, lane, order->row, is_of_scheme(order->row), order->text,
-                                 &play->restart, message)) {
+               : !gm_session_set(&play->session, lane, order->row, order->text, &play->restart, message)) {
         return false;
     }
     say(play, "Undone: %s is %.300s again.", scheme ? "the scheme" : order->row->key,
@@ -376,7 +370,7 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {
     char text[GM_TYPED], message[GM_MESSAGE];
     const struct gm_parameter *row = order->row;
-    const void *owner = gm_session_owner(&play->session, play->selected, is_of_scheme(row));
+    const void *owner = gm_session_owner(&play->session, play->selected, gm_is_setting(row));
     if (order->kind == GM_ORDER_STANDARD) {
         snprintf(text, sizeof text, "%s", row->standard);
     } else if (order->kind == GM_ORDER_TYPE) {
@@ -395,14 +389,13 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
     if (play->undo_count > 0 && (order->kind != GM_ORDER_SLIDE || order->amount)) {
         play->undos[play->undo_count - 1].amount = 0; /* an earlier drag has ended */
     }
-    const bool alone = gm_session_differs(&play->session, row, is_of_scheme(row));
+    const bool alone = gm_session_differs(&play->session, row);
     struct gm_order back = {.kind = GM_ORDER_TYPE,
                             .amount = order->kind == GM_ORDER_SLIDE,
                             .value = alone ? (double)play->selected : all_lanes,
                             .row = row};
     gm_parameter_format(row, owner, back.text, sizeof back.text);
-    if (!gm_session_set(&play->session, play->selected, row, is_of_scheme(row), text, &play->restart,
-                        message)) {
+    if (!gm_session_set(&play->session, play->selected, row, text, &play->restart, message)) {
         say(play, "%s", message);
     } else if (strcmp(back.text, text) != 0) {
         note_undo(play, back);
@@ -440,8 +433,7 @@ static bool look(struct gm_play *play, const struct gm_order *order, char *messa
         moved = fmin(fmax(moved, row->lowest), row->highest);
         char text[GM_TYPED];
         snprintf(text, sizeof text, "%.4g", moved);
-        if (moved != value &&
-            !gm_session_set(session, play->selected, row, false, text, &play->restart, message)) {
+        if (moved != value && !gm_session_set(session, play->selected, row, text, &play->restart, message)) {
             return false;
         }
     }
@@ -497,7 +489,7 @@ static bool start_from(struct gm_play *play, double x, double y, char *message)
     size_t count = scene->point(parameters, x, y, choices);
     for (size_t i = 0; i < count; i++) {
         const struct gm_parameter *row = gm_scene_parameter(scene, choices[i].key);
-        if (!gm_session_set(session, play->selected, row, false, choices[i].value, &play->restart, message)) {
+        if (!gm_session_set(session, play->selected, row, choices[i].value, &play->restart, message)) {
             return false;
         }
     }

@@ -12,6 +12,7 @@
 #include "app/grid/sweep.h"
 #include "app/output/folder.h"
 #include "app/output/row.h"
+#include "app/output/say.h"
 #include "core/arena.h"
 #include "core/basics.h"
 #include "render/files/regular_file.h"
@@ -113,7 +114,6 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
 struct joining {
     const struct gm_sweep *sweep;
     struct gm_csv_lines *shards;
-    void (*missing)(size_t run, const char *words);
     size_t missing_count, other; /* runs without a row; 1 + the run in whose place there is another's row */
 };
 
@@ -136,7 +136,7 @@ static bool merge(FILE *table, const void *context)
             gm_csv_close(shard);
             char *words = joining->missing_count++ < NAMED ? gm_sweep_words(sweep, run) : NULL;
             if (words) {
-                joining->missing(run, words);
+                gm_complain("run %zu has no row: geomint %s", run, words);
             }
             free(words);
         }
@@ -144,12 +144,11 @@ static bool merge(FILE *table, const void *context)
     return !ferror(table);
 }
 
-size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path,
-                     void (*missing)(size_t run, const char *words))
+size_t gm_sweep_join(const struct gm_sweep *sweep, const char *path)
 {
     struct gm_arena *arena = sweep->arena;
     struct gm_csv_lines *tables = gm_arena_take(arena, sweep->shards + 1, sizeof *tables);
-    struct joining joining = {.sweep = sweep, .shards = tables + 1, .missing = missing}, *self = &joining;
+    struct joining joining = {.sweep = sweep, .shards = tables + 1}, *self = &joining;
     allow_files();
     for (size_t i = 1; i <= sweep->shards; i++) {
         const char *shard = gm_sweep_shard_path(arena, path, i, sweep->shards);

@@ -213,17 +213,17 @@ static double order_in_time(const struct subject *subject, const double *y, doub
 {
     const size_t n = subject->problem.n;
     double *end = calloc(3 * n, sizeof *end), change[2] = {0};
-    bool good = end != NULL;
-    for (int k = 0; good && k < 3; k++) {
+    bool made = end != NULL;
+    for (int k = 0; made && k < 3; k++) {
         const struct gm_trial trial = {&subject->problem, subject->scheme, &no_settings,
                                        ldexp(subject->dt, -k), (int64_t)lround(until / subject->dt) << k};
-        good = gm_trial_advance(&trial, y, end + (size_t)k * n);
+        made = gm_trial_advance(&trial, y, end + (size_t)k * n);
     }
-    for (size_t k = 0; good && k < 2; k++) {
+    for (size_t k = 0; made && k < 2; k++) {
         change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
     }
     free(end);
-    return good ? log2(change[0] / change[1]) : NAN;
+    return made ? log2(change[0] / change[1]) : NAN;
 }
 
 enum { LEVELS = 4, STEPS = 16 };
@@ -537,9 +537,9 @@ static bool open_equation(struct opened *opened, const struct equation *equation
         return false;
     }
     double *numbers = gm_equations_start(&opened->system, NULL);
-    const bool good = numbers && open_problem(opened, &line, numbers);
+    const bool ready = numbers && open_problem(opened, &line, numbers);
     free(numbers);
-    opened->start = good ? calloc(problem->n, sizeof *opened->start) : NULL;
+    opened->start = ready ? calloc(problem->n, sizeof *opened->start) : NULL;
     if (!opened->start) {
         return false;
     }
@@ -688,12 +688,12 @@ static const char *no_steps(struct subject *subject, const double *y)
     if (fabs(subject->dt) > gm_wave_longest_step(&subject->problem, subject->scheme, y)) {
         return "dt is beyond the longest step of linear theory (longest_step): take a shorter one";
     }
-    bool good = begin_run(subject, y);
-    if (good) {
-        good = gm_run_advance(subject->run, RUN_STEPS) == GM_OK;
+    bool made = begin_run(subject, y);
+    if (made) {
+        made = gm_run_advance(subject->run, RUN_STEPS) == GM_OK;
         gm_run_close(subject->run);
     }
-    return good ? NULL : "a run of steps of this dt fails: take a shorter one";
+    return made ? NULL : "a run of steps of this dt fails: take a shorter one";
 }
 
 /* Measures the order and the properties of a user-defined equation: symmetry and the multisymplectic law,

@@ -114,10 +114,10 @@ static bool factor(struct work *work, const struct step *step)
             gm_ring_band_add(&work->band, j, 0, by, 0, weights[by + REACH]);
         }
     }
-    const bool good = gm_ring_band_factor(&work->band);
-    work->factored_k = good ? step->k : 0;
+    const bool factored = gm_ring_band_factor(&work->band);
+    work->factored_k = factored ? step->k : 0;
     work->factored_h = step->h;
-    return good;
+    return factored;
 }
 
 /* The weights of the six nodes about a place that lies by `part` of a node beyond the third. */

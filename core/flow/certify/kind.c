@@ -95,17 +95,17 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
     const gsl_odeiv2_system equations = {rates, NULL, n, flow};
     struct gm_ladder *ladder = &certificate->ladder;
     memcpy(exact, gm_flow_block(flow, start, GM_FLOW_OMEGA), n * sizeof *exact);
-    bool good = gm_certify_solve(&equations, 1e-13, until, exact);
-    for (int i = 0; good && i < LADDER; i++) {
+    bool made = gm_certify_solve(&equations, 1e-13, until, exact);
+    for (int i = 0; made && i < LADDER; i++) {
         const int64_t steps = STEPS << i;
         const struct gm_trial trial = {&problem, scheme, &no_settings, until / (double)steps, steps};
-        good = gm_trial_advance(&trial, start, end);
+        made = gm_trial_advance(&trial, start, end);
         ladder->dt[i] = trial.dt;
         ladder->error[i] = gm_distance(gm_flow_block(flow, end, GM_FLOW_OMEGA), exact, n);
     }
     close_flow(flow);
-    ladder->count = good ? LADDER : 0;
-    certificate->order = good ? log(ladder->error[0] / ladder->error[LADDER - 1]) / log(4) : NAN;
+    ladder->count = made ? LADDER : 0;
+    certificate->order = made ? log(ladder->error[0] / ladder->error[LADDER - 1]) / log(4) : NAN;
     certificate->order_problem = "torus";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
 }

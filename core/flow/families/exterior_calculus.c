@@ -90,7 +90,7 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
     memcpy(psi_half, flow->psi, complex->vertices * sizeof *psi_half);
     if (solver->unknowns.count > 0) {
         gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
-                                  solver->x, psi_half);
+                                  psi_half);
         solver->factor_solves++;
     }
 }
@@ -139,8 +139,7 @@ static bool advance_vorticity(struct gm_flow_solver *solver, double share, doubl
     }
     keep_circulations(solver, y);
     if (solver->unknowns.count > 0) {
-        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
-                                  solver->x, y);
+        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b, y);
         solver->factor_solves++;
     }
     progress->solves += 2;

@@ -66,12 +66,12 @@ static bool find_roots(size_t n, const double *b, const double *c, double *real,
             right[i][j] = -b[i * n + j];
         }
     }
-    bool good = solve(left, right, n, n);
+    bool bounded = solve(left, right, n, n);
     for (size_t i = 0; i < n * n; i++) {
         matrix[i] = creal(right[i / n][i % n]);
-        good &= fabs(matrix[i]) < 1e8;
+        bounded &= fabs(matrix[i]) < 1e8;
     }
-    return good && gm_eigenvalues(matrix, n, real, imaginary);
+    return bounded && gm_eigenvalues(matrix, n, real, imaginary);
 }
 
 /* A left vector, by inverse iteration; of length 1. */

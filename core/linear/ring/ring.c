@@ -176,8 +176,9 @@ bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, si
     return true;
 }
 
-void gm_ring_band_close(struct gm_ring_band *band)
+void gm_ring_band_close(void *data)
 {
+    struct gm_ring_band *band = data;
     gm_banded_close(&band->folded);
     free(band->right);
 }

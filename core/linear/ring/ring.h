@@ -48,7 +48,7 @@ struct gm_ring_band {
 };
 /* Returns false when out of memory; then nothing is allocated. */
 bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, size_t reach);
-void gm_ring_band_close(struct gm_ring_band *band);
+void gm_ring_band_close(void *band); /* for arenas too */
 /* All entries := 0. */
 void gm_ring_band_clear(struct gm_ring_band *band);
 /* Adds to the entry of a row at `point` and a column `by` points on. */

@@ -143,9 +143,8 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
     enum { STATES = 3 };
     const size_t n = subject->problem.n;
     double y[GM_SUBJECT_COMPONENTS], rate[GM_SUBJECT_COMPONENTS], side[GM_SUBJECT_COMPONENTS];
-    bool good = true;
     memcpy(y, subject->start, n * sizeof *y);
-    for (int k = 0; good && k < STATES; k++) {
+    for (int k = 0; k < STATES; k++) {
         double fastest = 0, value[2];
         gm_field(&subject->problem, y, rate, 1);
         for (size_t c = 0; c < n; c++) {
@@ -158,12 +157,14 @@ static bool is_kept_on_the_grid(const struct gm_subject *subject, const struct g
             }
             value[end] = kept->value(kept->data, side, NULL);
         }
-        good = fabs(value[1] - value[0]) <= 1e-10 * (fabs(value[0]) + fabs(value[1]));
+        if (!(fabs(value[1] - value[0]) <= 1e-10 * (fabs(value[0]) + fabs(value[1])))) {
+            return false;
+        }
         for (size_t c = 0; c < n; c++) {
             y[c] += 0.3 * step * rate[c];
         }
     }
-    return good;
+    return true;
 }
 
 /* Returns true if the bracket of a quantity with every component is 0, up to the error of differences. */
@@ -376,14 +377,13 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
         certificate->followed_count < GM_MOST_FOLLOWED
             ? gm_run_open(&subject->problem, certificate->scheme, &settings, 0, subject->dt, subject->start)
             : NULL;
-    bool good = run != NULL;
-    for (int look = 0; good && look < QUARTERS * LOOKS; look++) {
-        good = gm_run_advance(run, STEPS) == GM_OK;
+    int look = 0;
+    for (; run && look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
         const double change = fabs(kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0);
         largest[look / LOOKS] = fmax(largest[look / LOOKS], change);
     }
     gm_run_close(run);
-    if (good) {
+    if (look == QUARTERS * LOOKS) {
         struct gm_followed *row = &certificate->followed[certificate->followed_count++];
         const double scale = fabs(x0) > round_off ? fabs(x0) : 1;
         snprintf(row->name, sizeof row->name, "%.*s", (int)(end ? end - name : (ptrdiff_t)strlen(name)),
@@ -459,17 +459,17 @@ static double *start_before_event(const struct gm_subject *subject)
     const double until = first - subject->dt / 2, whole = floor(until / subject->dt);
     run =
         whole >= 0 ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
-    bool good = run && gm_run_advance(run, (int64_t)whole) == GM_OK;
-    if (good) {
+    bool there = run && gm_run_advance(run, (int64_t)whole) == GM_OK;
+    if (there) {
         gm_run_set_step(run, until - whole * subject->dt);
-        good = gm_run_advance(run, 1) == GM_OK;
+        there = gm_run_advance(run, 1) == GM_OK;
         memcpy(state, gm_run_state(run), bytes);
     }
     gm_run_close(run);
-    if (!good) {
+    if (!there) {
         free(state);
     }
-    return good ? state : NULL;
+    return there ? state : NULL;
 }
 
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,

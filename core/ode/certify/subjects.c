@@ -133,14 +133,14 @@ static bool read_problem(struct gm_subject *subject, const struct row *row)
     file = file ? file : gm_built_in_find(GM_FILE_SYSTEM, row->file);
     struct gm_fault fault;
     double *values = NULL;
-    const bool good = gm_equations_open(&subject->system, file->text, file->length, &row->value,
-                                        row->value.name != NULL, &fault) &&
-                      gm_user_model_open(&subject->model, &subject->system) &&
-                      (values = gm_equations_start(&subject->system, NULL)) != NULL;
-    if (good) {
+    const bool derived = gm_equations_open(&subject->system, file->text, file->length, &row->value,
+                                           row->value.name != NULL, &fault) &&
+                         gm_user_model_open(&subject->model, &subject->system) &&
+                         (values = gm_equations_start(&subject->system, NULL)) != NULL;
+    if (derived) {
         memcpy(values, row->start, subject->system.n * sizeof *values);
     }
-    const bool opened = good && gm_user_problem_open(&subject->problem, &subject->model, values);
+    const bool opened = derived && gm_user_problem_open(&subject->problem, &subject->model, values);
     subject->problem.name = row->name ? row->name : row->file;
     free(values);
     return opened;

@@ -237,15 +237,15 @@ static bool put_file(FILE *out, const char *path, enum family family)
              slash ? slash + 1 : path);
     struct gm_written_scheme scheme = {.text = NULL};
     struct gm_fault fault = {.sentence = "it could not be read"};
-    const bool good = text && (family == TEXTS ? put_texts(out, text, length, &fault)
-                                               : gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
-                                                     put_scheme(out, &scheme, name, family));
-    if (!good) {
+    const bool put = text && (family == TEXTS ? put_texts(out, text, length, &fault)
+                                              : gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
+                                                    put_scheme(out, &scheme, name, family));
+    if (!put) {
         fprintf(stderr, "%s: %s\n", path, fault.sentence[0] ? fault.sentence : "it is not a row of a family");
     }
     gm_written_close(&scheme);
     free(text);
-    return good;
+    return put;
 }
 
 int main(int argc, char *argv[])

@@ -206,18 +206,18 @@ static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
     struct gm_run *run = growth->run;
     *made = (struct gm_stretch){.length = NAN};
     if (log_volume_of(growth) == -INFINITY) { /* it stays 0, and no vectors span it */
-        const bool good = gm_run_advance(run, 1) == GM_OK;
+        const bool stepped = gm_run_advance(run, 1) == GM_OK;
         made->t = run->t;
-        return good;
+        return stepped;
     }
     const double t = run->t, before = divergence_at(growth, run);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
     const double middle =
         gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
-    const bool good = gm_tangent_step(growth->tangent, growth->v, growth->vectors);
+    const bool stepped = gm_tangent_step(growth->tangent, growth->v, growth->vectors);
     *made = (struct gm_stretch){run->t, orthonormalise(growth)};
     growth->divergence += (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run));
-    return good;
+    return stepped;
 }
 
 /* ---- advancing ---- */

@@ -271,12 +271,12 @@ typedef bool moved(const struct gm_tangent *tangent, const double *v, double fac
 static bool difference(const struct gm_tangent *tangent, const double *v, double factor, moved *become,
                        double *slope)
 {
-    const bool good =
+    const bool became =
         become(tangent, v, factor, tangent->plus) && become(tangent, v, -factor, tangent->minus);
-    for (size_t i = 0; good && i < gm_tangent_size(tangent); i++) {
+    for (size_t i = 0; became && i < gm_tangent_size(tangent); i++) {
         slope[i] = (tangent->plus[i] - tangent->minus[i]) / (2 * factor);
     }
-    return good;
+    return became;
 }
 
 /* v[i] := the derivative along v of entry i of the function, from `first` on. Differences that are too far apart are
@@ -316,12 +316,12 @@ static bool recall(const struct gm_tangent *tangent, const double *v, double fac
         to[c] = tangent->before[c] + factor * v[c];
     }
     struct gm_run *run = open_run(tangent, to);
-    const bool good = run && run->status == GM_OK;
-    if (good) {
+    const bool opened = run && run->status == GM_OK;
+    if (opened) {
         memcpy(to + tangent->n, gm_run_memory(run), tangent->memory * sizeof *to);
     }
     gm_run_close(run);
-    return good;
+    return opened;
 }
 
 bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
@@ -602,18 +602,21 @@ static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, s
 {
     const struct gm_run *run = tangent->run;
     const size_t bytes = tangent->n * sizeof *v;
-    bool good = true;
     take_before(tangent);
     tangent->h = run->dt;
-    for (size_t i = 0; good && i < steps; i++) {
-        good = by_stages(tangent, v);
+    for (size_t i = 0; i < steps; i++) {
+        if (!by_stages(tangent, v)) {
+            return false;
+        }
         memcpy(tangent->before, tangent->y, bytes);
         memcpy(v, tangent->dy, bytes);
         made[i] =
             (struct gm_stretch){run->t0 + (double)(run->n + (int64_t)i + 1) * run->dt, normalise(tangent, v)};
-        good = good && made[i].length > 0;
+        if (!(made[i].length > 0)) {
+            return false;
+        }
     }
-    return good;
+    return true;
 }
 
 /* Makes steps with the stages, then the run; unless both agree to the last bit, restores all. */
@@ -622,14 +625,14 @@ static bool advance_together(struct gm_tangent *tangent, double *v, size_t steps
     const size_t bytes = tangent->n * sizeof *v;
     memcpy(tangent->plus, v, bytes);
     gm_run_save(tangent->run, tangent->snapshot);
-    const bool good = follow_stages(tangent, v, steps, made) &&
+    const bool same = follow_stages(tangent, v, steps, made) &&
                       gm_run_advance(tangent->run, (int64_t)steps) == GM_OK &&
                       memcmp(gm_run_state(tangent->run), tangent->before, bytes) == 0;
-    if (!good) {
+    if (!same) {
         gm_run_load(tangent->run, tangent->snapshot);
         memcpy(v, tangent->plus, bytes);
     }
-    return good;
+    return same;
 }
 
 size_t gm_tangent_advance(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)

@@ -32,38 +32,48 @@ static gm_node_id node_of(struct gm_conserved *conserved, size_t i, const char *
     return GM_NO_NODE;
 }
 
+/* Opens the tapes. slopes: room for the slopes, and the values behind them. */
+static bool open_tapes(struct gm_conserved *conserved, const char *const *names, struct gm_formula *graph,
+                       gm_node_id *slopes, char lacks[GM_FAULT_SENTENCE])
+{
+    const size_t count = conserved->count, n = conserved->n;
+    gm_node_id *nodes = slopes + count * n;
+    for (size_t i = 0; i < count; i++) {
+        nodes[i] = node_of(conserved, i, names[i], graph, lacks);
+        if (nodes[i] == GM_NO_NODE || !gm_gradient(graph, nodes[i], NULL, n, slopes + i * n)) {
+            return false;
+        }
+    }
+    for (size_t i = 0; i < count * n; i++) {
+        conserved->linear &= graph->nodes[slopes[i]].operation == GM_CONSTANT && conserved->energy == count;
+    }
+    return gm_tape_open(&conserved->values, graph, nodes, count, n, NULL) &&
+           gm_tape_open(&conserved->slopes, graph, slopes, count * n, n, NULL) &&
+           gm_tape_open(&conserved->both, graph, slopes, count * (n + 1), n, NULL);
+}
+
 bool gm_conserved_open(struct gm_conserved *conserved, const struct gm_problem *problem,
                        const char *const *names, size_t count, char lacks[GM_FAULT_SENTENCE])
 {
     const size_t n = problem->n - 2 * problem->passive;
     struct gm_formula graph;
-    gm_node_id *slopes = malloc((count * (n + 1) + 1) * sizeof *slopes),
-               *nodes = slopes ? slopes + count * n : NULL;
-    bool good = slopes != NULL;
+    gm_node_id *slopes = malloc((count * (n + 1) + 1) * sizeof *slopes);
     *conserved =
         (struct gm_conserved){.problem = problem, .count = count, .n = n, .energy = count, .linear = true};
     lacks[0] = '\0';
     gm_formula_open(&graph);
-    for (size_t i = 0; good && i < count; i++) {
-        nodes[i] = node_of(conserved, i, names[i], &graph, lacks);
-        good = nodes[i] != GM_NO_NODE && gm_gradient(&graph, nodes[i], NULL, n, slopes + i * n);
-    }
-    for (size_t i = 0; good && i < count * n; i++) {
-        conserved->linear &= graph.nodes[slopes[i]].operation == GM_CONSTANT && conserved->energy == count;
-    }
-    good = good && gm_tape_open(&conserved->values, &graph, nodes, count, n, NULL) &&
-           gm_tape_open(&conserved->slopes, &graph, slopes, count * n, n, NULL) &&
-           gm_tape_open(&conserved->both, &graph, slopes, count * (n + 1), n, NULL);
-    if (!good) {
+    const bool opened = slopes && open_tapes(conserved, names, &graph, slopes, lacks);
+    if (!opened) {
         gm_conserved_close(conserved);
     }
     gm_formula_close(&graph);
     free(slopes);
-    return good;
+    return opened;
 }
 
-void gm_conserved_close(struct gm_conserved *conserved)
+void gm_conserved_close(void *data)
 {
+    struct gm_conserved *conserved = data;
     gm_tape_close(&conserved->values);
     gm_tape_close(&conserved->slopes);
     gm_tape_close(&conserved->both);

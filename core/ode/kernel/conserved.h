@@ -21,7 +21,7 @@ struct gm_conserved {
    like a facet, "" when out of memory; then there is nothing to close. */
 bool gm_conserved_open(struct gm_conserved *conserved, const struct gm_problem *problem,
                        const char *const *names, size_t count, char lacks[GM_FAULT_SENTENCE]);
-void gm_conserved_close(struct gm_conserved *conserved);
+void gm_conserved_close(void *conserved); /* for arenas too */
 
 /* Writes the values (count) and gradients (count * n, by rows) at one member's state. */
 void gm_conserved_values(const struct gm_conserved *conserved, const double *y, double *values);

@@ -24,11 +24,11 @@ static void scatter(const double *from, double *to, size_t count, size_t m, size
 
 bool gm_is_within(const double *y, size_t count, double limit)
 {
-    bool good = true;
+    bool within = true;
     for (size_t i = 0; i < count; i++) {
-        good &= fabs(y[i]) <= limit;
+        within &= fabs(y[i]) <= limit;
     }
-    return good;
+    return within;
 }
 
 size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)

@@ -111,16 +111,16 @@ static bool fill_fields(struct gm_portrait *portrait, const struct gm_problem *p
 {
     double *places = malloc((size_t)2 * CORNERS * sizeof *places);
     portrait->fields[0] = malloc((size_t)2 * CORNERS * sizeof *portrait->fields[0]);
-    const bool good = places && portrait->fields[0];
-    for (size_t k = 0; good && k < CORNERS; k++) {
+    const bool ready = places && portrait->fields[0];
+    for (size_t k = 0; ready && k < CORNERS; k++) {
         place_corner(&portrait->window, k, places + k, CORNERS);
     }
-    if (good) {
+    if (ready) {
         portrait->fields[1] = portrait->fields[0] + CORNERS;
         gm_field(problem, places, portrait->fields[0], CORNERS);
     }
     free(places);
-    return good;
+    return ready;
 }
 
 /* ---- equilibria ---- */

@@ -96,13 +96,14 @@ static void find_parts(struct gm_arena *arena, struct gm_user_system *system, co
 /* Returns true if the slope over y_i holds y_i only, and the slopes over z hold no y. */
 static bool is_sum_over_axes(size_t n, const bool *holds)
 {
-    bool good = n == 3 || n == 6;
-    for (size_t i = 0; i < n && good; i++) {
+    for (size_t i = 0; i < n; i++) {
         for (size_t k = 0; k < n; k++) {
-            good = good && (!holds[i * n + k] || (i < 3 ? k == i : k >= 3));
+            if (holds[i * n + k] && (i < 3 ? k != i : k < 3)) {
+                return false;
+            }
         }
     }
-    return good;
+    return n == 3 || n == 6;
 }
 
 /* ---- pieces ---- */
@@ -119,13 +120,14 @@ static void rename_group(size_t *group, size_t n, size_t from, size_t to)
 static bool commute(const struct gm_user_system *system, const size_t *group, size_t one, size_t other)
 {
     const size_t n = system->n;
-    bool good = true;
     for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < n && good; k++) {
-            good = group[i] != one || group[k] != other || is_zero(system, system->bracket[i * n + k]);
+        for (size_t k = 0; k < n; k++) {
+            if (group[i] == one && group[k] == other && !is_zero(system, system->bracket[i * n + k])) {
+                return false;
+            }
         }
     }
-    return good;
+    return true;
 }
 
 /* Groups the components: i and k share a group if the slope dH/dy_i holds k; then groups that commute are

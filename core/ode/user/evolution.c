@@ -581,6 +581,24 @@ static bool has_rates(const struct own *self, const double *rates, struct gm_fau
     return true;
 }
 
+/* Returns true if fields, masses and rates are finite at the start; else false with a fault. y: room for a state and its
+   rates. */
+static bool starts(const struct gm_problem *problem, double *y, struct gm_fault *fault)
+{
+    const struct own *self = own_of(problem);
+    gm_user_evolution_start(problem, y);
+    for (size_t i = 0; i < self->fields; i++) {
+        if (!field_closes(self, i, fault)) {
+            return false;
+        }
+    }
+    if (!has_masses(self, fault)) {
+        return false;
+    }
+    field(problem, y, y + problem->n, 1);
+    return has_rates(self, y + problem->n, fault);
+}
+
 bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault *fault)
 {
     const struct own *self = own_of(problem);
@@ -590,21 +608,8 @@ bool gm_user_evolution_closes(const struct gm_problem *problem, struct gm_fault 
             "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
             "change their sign in the mirror");
     }
-    double *y = malloc(2 * problem->n * sizeof *y), *rates = y ? y + problem->n : NULL;
-    bool good = y != NULL;
-    if (good) {
-        gm_user_evolution_start(problem, y);
-    } else {
-        gm_fail(fault, 0, "not enough memory");
-    }
-    for (size_t i = 0; i < self->fields && good; i++) {
-        good = field_closes(self, i, fault);
-    }
-    good = good && has_masses(self, fault);
-    if (good) {
-        field(problem, y, rates, 1);
-        good = has_rates(self, rates, fault);
-    }
+    double *y = malloc(2 * problem->n * sizeof *y);
+    const bool closes = y ? starts(problem, y, fault) : gm_fail(fault, 0, "not enough memory");
     free(y);
-    return good;
+    return closes;
 }

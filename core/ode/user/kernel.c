@@ -111,11 +111,12 @@ static bool put_code(struct writing *writing)
 {
     struct gm_tape_place at = {0};
     struct gm_instruction now;
-    bool good = true;
-    while (good && gm_tape_next(writing->tape, &at, &now)) {
-        good = put_statement(writing, now.operation, now.to, now.a, now.b);
+    while (gm_tape_next(writing->tape, &at, &now)) {
+        if (!put_statement(writing, now.operation, now.to, now.a, now.b)) {
+            return false;
+        }
     }
-    return good;
+    return true;
 }
 
 static size_t statements_of(const struct gm_tape *tape)
@@ -167,8 +168,10 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
     if (is_jacobian) {
         fprintf(out, "    memset(f, 0, sizeof(double[GM_COMPONENTS][GM_COMPONENTS]));\n");
     }
-    const bool good = put_code(&writing);
-    for (size_t k = 0; good && k < tape->outputs; k++) {
+    if (!put_code(&writing)) {
+        return false;
+    }
+    for (size_t k = 0; k < tape->outputs; k++) {
         if (is_jacobian) {
             const struct gm_sparse_entry *entry = &source->jacobian->entries[k];
             fprintf(out, "    f[%zu][%zu] = ", (size_t)entry->row, (size_t)entry->column);
@@ -179,7 +182,7 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
         fputs(";\n", out);
     }
     fprintf(out, "}\n%s", alone ? "#endif\n" : "");
-    return good;
+    return true;
 }
 
 /* Compilation fails if structs that loops and program share differ in layout. */

@@ -42,8 +42,8 @@ static char *kernel_of(struct gm_user_system *system, bool written_out, bool gen
     if (start && !*lacks) {
         const struct gm_user_rates *rates = general ? model.rates : gm_user_model_rates(&model, start);
         const size_t n = model.components;
-        const bool good = open_tapes(tapes, &system->graph, rates, n, written_out ? system->velocities : n,
-                                     written_out ? NULL : start);
+        const bool opened = open_tapes(tapes, &system->graph, rates, n, written_out ? system->velocities : n,
+                                       written_out ? NULL : start);
         struct gm_kernel_source source = {.components = n,
                                           .tapes = {&tapes[GM_KERNEL_FIELD], &tapes[GM_KERNEL_VELOCITY],
                                                     &tapes[GM_KERNEL_FORCE],
@@ -52,10 +52,10 @@ static char *kernel_of(struct gm_user_system *system, bool written_out, bool gen
                                           .jacobian_wanted = true,
                                           .written_out = written_out,
                                           .parameters = system->parameters};
-        if (good && !(written_out ? gm_kernel_splits(&source) : gm_user_model_splits(&model, start))) {
+        if (opened && !(written_out ? gm_kernel_splits(&source) : gm_user_model_splits(&model, start))) {
             source.tapes[GM_KERNEL_VELOCITY] = source.tapes[GM_KERNEL_FORCE] = NULL;
         }
-        text = good ? gm_kernel_text(&source, lacks) : NULL;
+        text = opened ? gm_kernel_text(&source, lacks) : NULL;
     }
     for (int i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
         gm_tape_close(&tapes[i]);

@@ -153,7 +153,10 @@ static bool structural_rates(struct gm_arena *arena, const struct gm_problem *pr
             other = graft(problem, graph, found_nodes[kepler ? 1 + i - half : i]);
             first = gm_difference(graph, rates[i], other);
         } else if (linear && !fast) {
-            gm_arena_need(arena, gm_linear_part(graph, rates[i], fields, fields, n, &first, &other));
+            struct gm_linear_split split;
+            gm_arena_need(arena, gm_linear_part(graph, rates[i], fields, fields, n, &split));
+            first = split.line;
+            other = split.rest;
         }
         gm_arena_need(arena, !graph->failed);
         found = found || !gm_is_constant(graph, first, 0);

@@ -561,12 +561,13 @@ static bool tapes_of_kernels(struct gm_user_data *self, const struct gm_tape *ta
                                            [GM_KERNEL_VELOCITY] = splits,
                                            [GM_KERNEL_FORCE] = splits,
                                            [GM_KERNEL_JACOBIAN] = self->model->has_jacobian};
-    bool good = true;
     for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
         tapes[i] = has[i] ? gm_late_tape(&self->tapes[i]) : NULL;
-        good = good && (tapes[i] || !has[i]);
+        if (has[i] && !tapes[i]) {
+            return false;
+        }
     }
-    return good;
+    return true;
 }
 
 char *gm_user_problem_kernel(const struct gm_problem *problem, int over, const char **lacks)

@@ -52,8 +52,7 @@ static void make_work(struct gm_system_scene *system_scene, const struct gm_prob
     if (!item) {
         return;
     }
-    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS),
-                                  *values = gm_system_option(item, GM_OPTION_VALUES);
+    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS);
     const struct gm_system_item *tie = gm_system_item_of(&system_scene->system, GM_WORD_TIE, 0);
     const char *solves = gm_system_option_text(item, GM_OPTION_SOLVES, NULL),
                *reference = gm_system_option_text(item, GM_OPTION_REFERENCE, NULL);
@@ -67,21 +66,12 @@ static void make_work(struct gm_system_scene *system_scene, const struct gm_prob
                    !(errors->numbers[0] > errors->numbers[1] && errors->numbers[1] > errors->numbers[2]))) {
         gm_arena_refuse(arena, "work: errors are three numbers that fall: errors 1e-3, 1e-6, 1e-9");
     }
-    work->arguments = item->words;
-    work->measure = gm_system_option_text(item, GM_OPTION_MEASURE, work->measure);
-    work->coarsest = gm_system_option_number(item, GM_OPTION_COARSEST, work->coarsest);
-    work->halvings = (int)gm_system_option_number(item, GM_OPTION_HALVINGS, work->halvings);
+    gm_written_work(work, item);
     work->reference = reference ? reference : work->reference;
     work->is_exact = solves;
-    work->errors = errors ? errors->numbers : work->errors;
     work->ratio = tie ? system_scene->system.variables[tie->variable].name : NULL;
-    if (values) {
-        if (!gm_scene_parameter(&system_scene->scene, item->name)) {
-            gm_arena_refuse(arena, "work: %.60s is not a parameter", item->name);
-        }
-        work->resolution = item->name;
-        work->resolutions = values->numbers;
-        work->resolution_count = values->count;
+    if (gm_system_option(item, GM_OPTION_VALUES) && !gm_scene_parameter(&system_scene->scene, item->name)) {
+        gm_arena_refuse(arena, "work: %.60s is not a parameter", item->name);
     }
     if (!(work->coarsest > 0) || work->halvings < 1 || work->halvings > 30) {
         gm_arena_refuse(arena, "work: a ladder of steps begins above 0 and has 1 to 30 halvings");

@@ -110,11 +110,6 @@ static double nine_points(const struct base *base, const struct tangent *a, size
     return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
 }
 
-static void close_band(void *band)
-{
-    gm_ring_band_close(band);
-}
-
 /* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
 static void linearised_box(const struct base *base, const struct tangent *a)
 {
@@ -124,7 +119,7 @@ static void linearised_box(const struct base *base, const struct tangent *a)
     double *right = a->v_next; /* no scheme of cells keeps u_t */
     struct gm_ring_band *band = gm_arena_take(base->law->arena, 1, sizeof *band);
     gm_arena_need(base->law->arena, gm_ring_band_open(band, points, 1, 1));
-    gm_arena_keep(base->law->arena, band, close_band);
+    gm_arena_keep(base->law->arena, band, gm_ring_band_close);
     for (size_t i = 0; i < points; i++) {
         const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
         gm_ring_band_add(band, i, 0, -1, 0, in_time - in_space + before);

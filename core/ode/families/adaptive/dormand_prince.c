@@ -164,17 +164,17 @@ static bool take_step(const struct gm_task *task, struct member *member, double 
 {
     const size_t n = member->n, size = n * sizeof(double);
     const double *stage = task->workspace;
-    bool good = true;
+    bool within = true;
     for (size_t c = 0; c < n; c++) {
-        good = good && fabs(stage[c]) <= task->limit;
+        within = within && fabs(stage[c]) <= task->limit;
         member->dense[c] = has_row ? h * sum_of(task, member, DENSE, c) : 0;
     }
     memcpy(member->y0, member->y, 2 * size); /* with the slope */
     memcpy(member->y, stage, size);
     memcpy(member->k, stage + (STAGES - 1) * n, size);
-    member->number[TIME] += good ? h : 0;
+    member->number[TIME] += within ? h : 0;
     member->number[LENGTH] = h;
-    return good;
+    return within;
 }
 
 /* Makes the next step of a member, which stays at its time if none succeeds. `end` is the time of a row. */

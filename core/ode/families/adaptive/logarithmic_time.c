@@ -73,7 +73,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     const struct gm_composition *composition = task->scheme->coefficients;
     double *memory = members->memory, last = 0;
-    bool good = true;
+    bool forwards = true;
     struct passing at = {.problem = task->problem,
                          .binding = memory[BINDING],
                          .place = members->scratch,
@@ -82,18 +82,18 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     memcpy(at.place, at.y, members->n / 2 * sizeof *at.place);
     for (int i = 0; i < composition->steps; i++) {
         const double ds = gm_composition_fraction(composition, i) * task->dt;
-        good = drift(&at, (last + ds) / 2) && good;
-        good = kick(&at, ds) && good;
+        forwards = drift(&at, (last + ds) / 2) && forwards;
+        forwards = kick(&at, ds) && forwards;
         last = ds;
     }
-    good = drift(&at, last / 2) && good;
+    forwards = drift(&at, last / 2) && forwards;
     moving(&at);
     const int drifts = gm_ode_of(at.problem)->split->unit_mass
                            ? 0
                            : composition->steps + 1; /* drifts that evaluate the field */
     progress->evaluations += (unsigned long)(composition->steps + drifts);
-    good = good && isfinite(at.time) && at.time * task->dt > 0;
-    return good ? gm_members_pass(progress, at.time, &memory[TIME_CARRY]) : GM_STEP_COLLAPSE;
+    forwards = forwards && isfinite(at.time) && at.time * task->dt > 0;
+    return forwards ? gm_members_pass(progress, at.time, &memory[TIME_CARRY]) : GM_STEP_COLLAPSE;
 }
 
 static enum gm_status start(const struct gm_task *task)

@@ -150,11 +150,6 @@ double gm_held_move(const double *from, const double *slopes, const double *mult
 
 /* ---- the hooks ---- */
 
-static void close_conserved(void *conserved)
-{
-    gm_conserved_close(conserved);
-}
-
 void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
                    const struct gm_scheme *scheme)
 {
@@ -175,7 +170,7 @@ void *gm_held_open(struct gm_members *members, const struct gm_problem *problem,
     if (count > 0) {
         gm_arena_need(members->arena,
                       gm_conserved_open(&held->conserved, &held->base.problem, holding->names, count, lacks));
-        gm_arena_keep(members->arena, &held->conserved, close_conserved);
+        gm_arena_keep(members->arena, &held->conserved, gm_conserved_close);
     }
     return held;
 }

@@ -425,9 +425,9 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
         return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
-    const bool good = work != NULL;
+    const bool opened = work != NULL;
     workspace_close(work);
-    return good ? NULL : sentence;
+    return opened ? NULL : sentence;
 }
 
 /* ---- steps ---- */
