@@ -104,11 +104,6 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
     return sum;
 }
 
-double gm_events_last(const struct gm_problem *problem, const double *memory)
-{
-    return memory[history_at(problem) + LAST];
-}
-
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
 {
     return memory[booked_at(problem) + quantity];
@@ -410,7 +405,7 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    const double together = 4e-15, t = rest->t + place * rest->rest;
+    const double together = 4e-15, begin = rest->t, t = begin + place * rest->rest;
     bool many = false;
     size_t made = 0;
     if (!make_part(rest, place, true)) {
@@ -445,6 +440,7 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         look_at(step->problem, t, rest->to, rest->look);
         if (rest->places[i] <= place + together && sign_of_rate(step, i, rest->look) == -step->memory[i]) {
             step->slides = i;
+            step->reached = place <= together ? begin : t;
             return GM_EVENTS_SLIDE;
         }
     }

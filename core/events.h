@@ -66,8 +66,6 @@ size_t gm_events_memory(const struct gm_problem *problem);
 void gm_events_clear(const struct gm_problem *problem, double *memory);
 /* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
-/* The time of the last event, after one has happened. */
-double gm_events_last(const struct gm_problem *problem, const double *memory);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
 

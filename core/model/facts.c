@@ -11,6 +11,7 @@
 
 #include "core/basics.h"
 #include "core/expression/derivative.h"
+#include "core/model/breaks.h"
 #include "core/model/equations.h"
 
 /* Limits of the search: terms of a sum, terms tried one by one, nodes visited and nodes added for it. */
@@ -1129,6 +1130,11 @@ static void write_reason(struct gm_arena *arena, void *data)
         fputs(jumps(system->graph.nodes[finding->term].operation) ? ": it jumps" : ": its derivative jumps",
               out);
         write_switches(arena, reason);
+        if (system->kind <= GM_POISSON) {
+            fputs(gm_breaks_are_located(system) ? "; breaks are located, by schemes of one step"
+                                                : "; breaks are not located",
+                  out);
+        }
     }
 }
 
