@@ -63,6 +63,22 @@ static size_t counts_at(const struct gm_problem *problem)
     return problem->events->count;
 }
 
+/* The number of the first break; those that are not located are no events. */
+static size_t first_break(const struct gm_problem *problem)
+{
+    return problem->events->count - problem->events->breaks;
+}
+
+static size_t watched(const struct gm_event_step *step)
+{
+    return step->locates ? step->problem->events->count : first_break(step->problem);
+}
+
+const double *gm_events_modes(const struct gm_problem *problem, const double *memory)
+{
+    return memory + counts_at(problem) + first_break(problem);
+}
+
 static size_t booked_at(const struct gm_problem *problem)
 {
     return 2 * problem->events->count;
@@ -82,15 +98,10 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
 {
     const double *counts = memory + counts_at(problem);
     double sum = 0;
-    for (size_t i = 0; i < problem->events->count; i++) {
+    for (size_t i = 0; i < first_break(problem); i++) {
         sum += i == event || event == problem->events->count ? counts[i] : 0;
     }
     return sum;
-}
-
-double gm_events_last(const struct gm_problem *problem, const double *memory)
-{
-    return memory[history_at(problem) + LAST];
 }
 
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
@@ -118,25 +129,54 @@ void gm_events_clear(const struct gm_problem *problem, double *memory)
     memory[history_at(problem) + LAST] = -DBL_MAX;
 }
 
-/* The sign of g with which an event waits in this state; on g = 0 the motion decides, by where it leads. */
-static double sign_ahead(const struct gm_problem *problem, size_t event, bool backwards, const double *look,
-                         double value, double nothing)
+/* The sign of dg/dt ahead, of the motion with these modes. */
+static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look)
 {
-    if (fabs(value) > nothing) {
-        return sign_of(value);
-    }
-    const double sign = sign_of(problem->events->rate(problem, event, look));
-    return backwards ? -sign : sign;
+    const struct gm_problem *motion =
+        step->motion(step->data, gm_events_modes(step->problem, step->memory));
+    const double sign = motion ? sign_of(step->problem->events->rate(step->problem, motion, event, look)) : 0;
+    return step->dt < 0 ? -sign : sign;
 }
 
-void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, const double *y,
-                   double *memory, double *scratch)
+static void wait_with(const struct gm_event_step *step, size_t event, const double *look, double sign)
 {
-    double *look = scratch, *values = look + problem->n + 1;
-    look_at(problem, t, y, look);
+    const struct gm_problem *problem = step->problem;
+    step->memory[event] = sign;
+    if (event >= first_break(problem)) {
+        step->memory[counts_at(problem) + event] = problem->events->mode(problem, event, look, sign);
+    }
+}
+
+/* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. At a break it
+   leads to a side that it does not leave at once. */
+static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double value,
+                       double nothing)
+{
+    if (fabs(value) > nothing) {
+        wait_with(step, event, look, sign_of(value));
+    } else if (event < first_break(step->problem)) {
+        step->memory[event] = sign_of_rate(step, event, look);
+    } else {
+        wait_with(step, event, look, 1);
+        const double above = sign_of_rate(step, event, look);
+        wait_with(step, event, look, -1);
+        const double below = sign_of_rate(step, event, look);
+        wait_with(step, event, look, above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0);
+    }
+}
+
+void gm_events_arm(struct gm_event_step *step)
+{
+    const struct gm_problem *problem = step->problem;
+    double *look = step->scratch, *values = look + problem->n + 1;
+    look_at(problem, step->t, step->begin, look);
     problem->events->values(problem, look, 1, values);
-    for (size_t i = 0; i < problem->events->count; i++) {
-        memory[i] = sign_ahead(problem, i, backwards, look, values[i], 0);
+    for (int on_zero = 0; on_zero < 2; on_zero++) { /* last, with the modes of all others */
+        for (size_t i = watched(step); i-- > 0;) {
+            if ((values[i] == 0) == on_zero) {
+                wait_ahead(step, i, look, values[i], 0);
+            }
+        }
     }
 }
 
@@ -145,14 +185,13 @@ static bool crosses(double sign, double value)
     return sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
-bool gm_events_are_near(const struct gm_problem *problem, const double *memory, bool ends,
-                        const double *values, size_t looks)
+bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks)
 {
-    const struct gm_events *events = problem->events;
+    const struct gm_events *events = step->problem->events;
     bool near = false;
-    for (size_t i = 0; i < events->count; i++) {
-        for (size_t k = 0; k < looks && (ends || !events->ends[i]); k++) {
-            near = near || memory[i] == 0 || crosses(memory[i], values[i * looks + k]);
+    for (size_t i = 0; i < watched(step); i++) {
+        for (size_t k = 0; k < looks && (step->ends || !events->ends[i]); k++) {
+            near = near || step->memory[i] == 0 || crosses(step->memory[i], values[i * looks + k]);
         }
     }
     return near;
@@ -168,6 +207,7 @@ struct rest {
     double *from, *to;                  /* states with their carries; `to`: room for a trial */
     double *look, *before, *after;      /* looks */
     double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
+    double *modes;  /* of breaks before a change */
     double *places; /* for each event the fraction of `rest` where it happens; NaN: it does not */
 };
 
@@ -218,6 +258,29 @@ static double place_of(struct rest *rest, size_t event)
     return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
 }
 
+/* A break without a side waits on the one where the rest has led, which is made again there. Returns false if that
+   fails. */
+static bool take_sides(struct rest *rest)
+{
+    struct gm_event_step *step = rest->step;
+    const double end = rest->t + rest->rest;
+    bool taken = false;
+    for (size_t i = first_break(step->problem); i < watched(step); i++) {
+        if (step->memory[i] == 0 && sign_of(rest->at_end[i]) != 0) {
+            look_at(step->problem, end, step->end, rest->look);
+            wait_with(step, i, rest->look, sign_of(rest->at_end[i]));
+            taken = true;
+        }
+    }
+    if (taken && !step->part(step->data, rest->from, rest->t, rest->rest, step->end, true)) {
+        return false;
+    }
+    if (taken) {
+        find_values(rest, end, step->end, rest->at_end);
+    }
+    return true;
+}
+
 /* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
    infinity: nothing happens, and all wait with the signs at the end; NaN: it cannot be found. */
 static double first_place(struct rest *rest)
@@ -226,7 +289,7 @@ static double first_place(struct rest *rest)
     const struct gm_events *events = step->problem->events;
     double *signs = step->memory, first = INFINITY;
     const double least = 1e-6;
-    for (size_t i = 0; i < events->count; i++) {
+    for (size_t i = 0; i < watched(step); i++) {
         rest->places[i] = NAN;
         if ((events->ends[i] && !step->ends) || !crosses(signs[i], rest->at_end[i])) {
             continue;
@@ -235,7 +298,7 @@ static double first_place(struct rest *rest)
         if (isnan(place) || !make_part(rest, place, false)) {
             return NAN;
         }
-        if (step->first && rest->t == step->t && place < least) {
+        if (step->first && rest->t == step->t && place < least && i < first_break(step->problem)) {
             signs[i] = -signs[i];
             continue;
         }
@@ -244,7 +307,7 @@ static double first_place(struct rest *rest)
         rest->places[i] = place;
         first = happens ? fmin(first, place) : first;
     }
-    for (size_t i = 0; i < events->count && first > 1; i++) {
+    for (size_t i = 0; i < watched(step) && first > 1; i++) {
         signs[i] = signs[i] == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
     }
     return first;
@@ -269,35 +332,50 @@ static void book(struct rest *rest)
     }
 }
 
-/* Lets an event change the state rest->to at t. `scale`: of g, to know round-off from a change. */
+/* Lets an event change the state rest->to at t, or a break the motion. `scale`: of g, to know round-off from a change. */
 static void change(struct rest *rest, double t, size_t event)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
     const struct gm_events *events = problem->events;
     const double roundoff = 1e-12;
+    const bool turns = event >= first_break(problem);
     double *after = rest->values + events->count;
+    const double *modes = gm_events_modes(problem, step->memory);
+    struct gm_event_part part = {event, rest->look, rest->before, rest->after, NULL, NULL};
+    memcpy(rest->modes, modes, events->breaks * sizeof *modes);
     find_values(rest, t, rest->to, rest->values);
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
-    events->change(problem, event, rest->before, rest->to);
-    memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
-    look_at(problem, t, rest->to, rest->after);
-    events->values(problem, rest->after, 1, after);
-    for (size_t i = 0; i < events->count; i++) {
+    if (turns) {
+        memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
+        wait_with(step, event, rest->before, -step->memory[event]);
+    } else {
+        events->change(problem, event, rest->before, rest->to);
+        memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
+        look_at(problem, t, rest->to, rest->after);
+        events->values(problem, rest->after, 1, after);
+        step->memory[counts_at(problem) + event]++;
+    }
+    for (size_t i = 0; i < watched(step) && !turns; i++) {
         const double nothing =
             fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
         if (i == event || after[i] != rest->values[i]) {
-            step->memory[i] =
-                sign_ahead(problem, i, step->dt < 0, rest->after, after[i], i == event ? nothing : 0);
+            wait_ahead(step, i, rest->after, after[i], i == event ? nothing : 0);
         }
     }
-    step->memory[counts_at(problem) + event]++;
+    part.ahead = step->motion(step->data, rest->modes);
+    part.beyond = step->motion(step->data, modes);
     look_at(problem, rest->t, rest->from, rest->look);
-    if (step->witness.see) {
-        const struct gm_event_part part = {event, rest->look, rest->before, rest->after};
+    if (part.ahead && part.beyond) {
+        events->carry_within(problem, &part, rest->to);
+        look_at(problem, t, rest->to, rest->after);
+    }
+    if (part.ahead && part.beyond && step->witness.see) {
         step->witness.see(step->witness.data, &part);
     }
-    book(rest);
+    if (!turns) {
+        book(rest);
+    }
 }
 
 /* Returns true if the intervals between events have become too short to end. */
@@ -311,22 +389,33 @@ static bool are_too_short(struct gm_event_step *step, double t)
     return history[SHORT] >= MOST_SHORT;
 }
 
+/* Returns true, and notes which, if a break is at this place. */
+static bool breaks_at(struct rest *rest, double place)
+{
+    bool found = false;
+    for (size_t i = first_break(rest->step->problem); i < watched(rest->step); i++) {
+        rest->step->slides = rest->places[i] == place ? i : rest->step->slides;
+        found = found || rest->places[i] == place;
+    }
+    return found;
+}
+
 /* Makes the rest up to the first events, and their changes; *place: its fraction. */
 static enum gm_event_outcome pass_first(struct rest *rest, double place)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    const double together = 4e-15, t = rest->t + place * rest->rest;
+    const double together = 4e-15, begin = rest->t, t = begin + place * rest->rest;
     bool many = false;
     size_t made = 0;
     if (!make_part(rest, place, true)) {
         return GM_EVENTS_FAILED;
     }
     step->reached = t;
-    if (place == 0) {
-        return GM_EVENTS_MANY; /* back on g = 0 within the accuracy of the finder */
+    if (place == 0) { /* back on g = 0 within the accuracy of the finder */
+        return breaks_at(rest, 0) ? GM_EVENTS_SLIDE : GM_EVENTS_MANY;
     }
-    for (size_t i = 0; i < events->count; i++) {
+    for (size_t i = 0; i < watched(step); i++) {
         if (!(rest->places[i] <= place + together)) {
             continue;
         }
@@ -340,12 +429,20 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
             step->memory[counts_at(step->problem) + i]++;
             return GM_EVENTS_ENDED;
         }
-        if (made++ == 0) {
+        if (i < first_break(step->problem) && made++ == 0) {
             many = are_too_short(step, t);
         }
         change(rest, t, i);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;
+    }
+    for (size_t i = first_break(step->problem); i < watched(step); i++) {
+        look_at(step->problem, t, rest->to, rest->look);
+        if (rest->places[i] <= place + together && sign_of_rate(step, i, rest->look) == -step->memory[i]) {
+            step->slides = i;
+            step->reached = place <= together ? begin : t;
+            return GM_EVENTS_SLIDE;
+        }
     }
     return many ? GM_EVENTS_MANY : GM_EVENTS_HAPPENED;
 }
@@ -357,7 +454,7 @@ static enum gm_event_outcome end_whole(struct rest *rest, double end)
     const struct gm_events *events = step->problem->events;
     double *signs = step->memory;
     bool ended = false;
-    for (size_t i = 0; i < events->count; i++) {
+    for (size_t i = 0; i < first_break(step->problem); i++) {
         ended = ended || (events->ends[i] && step->ends && crosses(signs[i], rest->at_end[i]) &&
                           events->happens(step->problem, i, rest->look));
         signs[i] = sign_of(rest->at_end[i]);
@@ -375,7 +472,7 @@ static size_t aligned(size_t numbers)
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size)
 {
     const size_t count = problem->events->count, quantities = problem->events->quantities;
-    return 2 * aligned(size) + 3 * (problem->n + 1) + 5 * count + 2 * quantities;
+    return 2 * aligned(size) + 3 * (problem->n + 1) + 6 * count + 2 * quantities;
 }
 
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
@@ -395,11 +492,12 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
                         .at_begin = next + 3 * width,
                         .at_end = next + 3 * width + count,
                         .places = next + 3 * width + 2 * count,
-                        .values = next + 3 * width + 3 * count};
+                        .modes = next + 3 * width + 3 * count,
+                        .values = next + 3 * width + 4 * count};
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
     const double end = step->t + step->dt;
     find_values(&rest, end, step->end, rest.at_end);
-    if (!gm_events_are_near(problem, step->memory, step->ends, rest.at_end, 1)) {
+    if (!gm_events_are_near(step, rest.at_end, 1)) {
         return GM_EVENTS_NONE;
     }
     if (!step->part) {
@@ -408,7 +506,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     find_values(&rest, step->t, step->begin, rest.at_begin);
     memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
     for (int made = 0; made <= MOST_IN_A_STEP; made++) {
-        const double place = first_place(&rest);
+        const double place = take_sides(&rest) ? first_place(&rest) : NAN;
         if (place > 1) {
             return outcome;
         }

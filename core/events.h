@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Events: changes of a motion where a function g of its state and the time passes 0; a stop is the change that
-   ends the run. */
+/* Events: changes of a motion where a function g of its state and the time passes 0. A stop is the change that
+   ends the run; at a break the rates change, from one smooth formula to another. */
 #ifndef GM_CORE_EVENTS_H
 #define GM_CORE_EVENTS_H
 
@@ -9,10 +9,12 @@
 
 #include "core/problem.h"
 
+struct gm_event_part;
+
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
 struct gm_events {
-    size_t count;
-    const char *const *names; /* [count]; "": none */
+    size_t count, breaks;     /* the last of `count` are breaks, in runs that locate them */
+    const char *const *names; /* [count]; "": none; of breaks the text of g */
     const bool *ends;         /* [count]: the event ends the run, and changes no state */
     bool changes, ends_runs;  /* some event changes the state; some ends the run */
     /* Writes g of all events for `looks` looks: component c of the k-th is look[c * looks + k], g of event i
@@ -22,14 +24,22 @@ struct gm_events {
     bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
     /* Writes the n components after an event. */
     void (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
-    /* Returns dg/dt along the motion. */
-    double (*rate)(const struct gm_problem *problem, size_t event, const double *look);
+    /* Returns dg/dt along a motion: that of the problem, or with frozen switches. */
+    double (*rate)(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
+                   const double *look);
     /* v := S v, n numbers, for a small error v of the state before the event,
            S = DR + (f+ - DR f- - dR/dt) grad g' / (grad g . f- + dg/dt)
        with the change y+ = R(y-, t) and the fields f- and f+ before and after it. Returns false where the motion
        only touches g = 0. M. A. Aizerman & F. R. Gantmacher, Quart. J. Mech. Appl. Math. 11 (1958) 225. */
-    bool (*carry)(const struct gm_problem *problem, size_t event, const double *before, const double *after,
-                  double *v);
+    bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
+    /* The same for all tangents that the state y after an event holds. */
+    void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
+    /* Breaks. The value with which a switch is frozen where its g has a sign; its mode. */
+    double (*mode)(const struct gm_problem *problem, size_t event, const double *look, double sign);
+    /* Returns the problem with switches of these modes, one per break. It and the one that was returned before stay
+       valid until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
+    const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
+    void (*melt)(void *frozen);
     /* Conserved quantities, whose jumps are added up; the last is the energy, if there is one. */
     size_t quantities;
     bool has_energy;
@@ -39,7 +49,8 @@ struct gm_events {
 /* A part of a step that ends with an event. */
 struct gm_event_part {
     size_t event;
-    const double *begin, *before, *after; /* looks: where the part begins, before and after the change */
+    const double *begin, *before, *after;     /* looks: where the part begins, before and after the change */
+    const struct gm_problem *ahead, *beyond; /* the motions before and after it */
 };
 /* Sees every event, in order. */
 struct gm_event_witness {
@@ -48,24 +59,15 @@ struct gm_event_witness {
 };
 
 /* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not
-   known) and how often it happened, the jumps of the quantities, the time of the last event, and the number of
+   known) and how often it happened, or the mode of a break, the jumps of the quantities, the time of the last event, and the number of
    successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
 /* Clears counts and jumps. */
 void gm_events_clear(const struct gm_problem *problem, double *memory);
-/* Begins the waiting of all events at this state of the last member; counts and jumps stay. `backwards`: the time
-   falls. */
-void gm_events_arm(const struct gm_problem *problem, double t, bool backwards, const double *y,
-                   double *memory, double *scratch);
-/* The number of times that an event happened; all of them for event `count`. */
+/* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
-/* The time of the last event, after one has happened. */
-double gm_events_last(const struct gm_problem *problem, const double *memory);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
-/* Returns true if some g of `looks` looks has another sign than its event waits with, or waits with none. */
-bool gm_events_are_near(const struct gm_problem *problem, const double *memory, bool ends,
-                        const double *values, size_t looks);
 
 /* A step that is made in parts if events happen in it. */
 struct gm_event_step {
@@ -73,6 +75,7 @@ struct gm_event_step {
     double t, dt;
     bool first;               /* of the run: a start on g = 0, up to round-off, does not pass it */
     bool ends;                /* events that end the run do so */
+    bool locates;             /* breaks are located */
     size_t size, state;       /* numbers of a state with its carry, and without */
     const double *begin;      /* the state before */
     double *end;              /* the state after the whole step; then the one after the events */
@@ -80,21 +83,32 @@ struct gm_event_step {
     /* Writes the state after a part of a step, of length dt from `from` at t. `counted` if it is one that the
        run takes. Returns false if it fails. NULL: steps cannot be made in parts. */
     bool (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
+    /* Returns the motion with these modes, which is valid until the next call but one; NULL when out of memory. */
+    const struct gm_problem *(*motion)(void *data, const double *modes);
     void *data;
     struct gm_event_witness witness;
     double reached; /* the time of the end */
+    size_t slides;  /* the break at which it slides */
 };
 enum gm_event_outcome {
     GM_EVENTS_NONE,
     GM_EVENTS_HAPPENED,
     GM_EVENTS_ENDED,
     GM_EVENTS_FAILED,
-    GM_EVENTS_MANY
+    GM_EVENTS_MANY,
+    GM_EVENTS_SLIDE
 };
 
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
+/* Begins the waiting of all events in the state `begin` at t, of the last member; counts and jumps stay. */
+void gm_events_arm(struct gm_event_step *step);
+/* Returns true if some g of `looks` looks has another sign than its event waits with, or waits with none. */
+bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks);
+/* The modes of breaks. */
+const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there. */
+   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there; GM_EVENTS_SLIDE: after the break `slides` the rate
+   points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 
 /* The zero of a function along a step, from `low` to 1, between values of different sign there: the place just

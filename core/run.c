@@ -70,11 +70,63 @@ const double *gm_run_events(const struct gm_run *run)
     return run->problem->events ? events_of(run, run->current) : NULL;
 }
 
+bool gm_run_locates(const struct gm_run *run)
+{
+    return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 &&
+           gm_scheme_makes_parts(run->scheme);
+}
+
+/* Opens the workspace for the present motion. */
+static bool open_workspace(struct gm_run *run)
+{
+    if (run->workspace) {
+        run->scheme->family->workspace_close(run->workspace);
+    }
+    if (run->problem->kind->prepare) {
+        run->problem->kind->prepare(run->scheme, run->motion);
+    }
+    return gm_scheme_workspace_open(run->scheme, run->motion, &run->workspace);
+}
+
+/* gm_event_step.motion: the run makes steps of it from now on */
+static const struct gm_problem *take_motion(void *data, const double *modes)
+{
+    struct gm_run *run = data;
+    if (!gm_run_locates(run)) {
+        return run->problem;
+    }
+    const struct gm_problem *before = run->motion,
+                            *now = run->problem->events->freeze(run->problem, &run->frozen, modes);
+    if (now && now != before) {
+        run->motion = now;
+        if (!open_workspace(run)) {
+            gm_memory_refused();
+            run->workspace = NULL;
+            run->motion = run->problem;
+            return NULL;
+        }
+    }
+    return now;
+}
+
+const struct gm_problem *gm_run_motion(struct gm_run *run)
+{
+    const double *memory = gm_run_events(run);
+    return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
+}
+
 static void arm(struct gm_run *run)
 {
     if (run->problem->events) {
-        gm_events_arm(run->problem, run->t, run->dt < 0, gm_run_state(run), events_of(run, run->current),
-                      run->event_scratch);
+        gm_events_arm(&(struct gm_event_step){.problem = run->problem,
+                                              .t = run->t,
+                                              .dt = run->dt,
+                                              .locates = gm_run_locates(run),
+                                              .begin = gm_run_state(run),
+                                              .memory = events_of(run, run->current),
+                                              .scratch = run->event_scratch,
+                                              .motion = take_motion,
+                                              .data = run});
     }
 }
 
@@ -86,7 +138,7 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_
     const double *y = half(run, from);
     double *out = half(run, to);
     return (struct gm_task){
-        .problem = run->problem,
+        .problem = run->motion,
         .scheme = run->scheme,
         .dt = run->dt,
         .steps = steps,
@@ -145,10 +197,8 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (!run) {
         return NULL;
     }
-    if (problem->kind->prepare) {
-        problem->kind->prepare(scheme, problem);
-    }
-    if (!gm_scheme_workspace_open(scheme, problem, &head.workspace)) {
+    head.motion = problem;
+    if (!open_workspace(&head)) {
         gm_memory_refused(); /* refused by a library, if not noted before */
         free(run);
         return NULL;
@@ -181,6 +231,9 @@ void gm_run_close(void *data)
     }
     if (run) {
         free(run->event_scratch);
+    }
+    if (run && run->frozen) {
+        run->problem->events->melt(run->frozen);
     }
     free(run);
 }
@@ -232,7 +285,10 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         return run->status;
     }
     const struct gm_family *family = run->scheme->family;
-    gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
+    if (!gm_run_motion(run)) {
+        return run->status = GM_OUT_OF_MEMORY;
+    }
+    gm_loop *loop = gm_scheme_loop(run->scheme, run->motion);
     const bool in_place = is_in_place(run, loop, steps);
     struct gm_task task = task_of(run, run->current, in_place ? run->current : 1 - run->current, steps);
     task.until = until;
@@ -280,6 +336,9 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
 {
     struct gm_run *run = data;
     const unsigned long refusals = gm_memory_refusals();
+    if (!gm_run_motion(run)) {
+        return false;
+    }
     struct gm_task task = task_of(run, run->current, run->current, 1);
     task.y = from;
     task.out = to;
@@ -290,7 +349,7 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
     task.dt = dt;
     task.steps_before = run->steps - 1;
     reset_workspace(run);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
         count_progress(run, &progress);
     }
@@ -309,6 +368,7 @@ static void pass_events(struct gm_run *run)
                                  .dt = run->dt,
                                  .first = run->steps == 1,
                                  .ends = run->ends,
+                                 .locates = gm_run_locates(run),
                                  .size = state_count(run) + carried,
                                  .state = state_count(run),
                                  .begin = half(run, before),
@@ -316,6 +376,7 @@ static void pass_events(struct gm_run *run)
                                  .memory = memory,
                                  .scratch = run->event_scratch,
                                  .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
+                                 .motion = take_motion,
                                  .data = run,
                                  .witness = run->witness};
     if (!step.part) {
@@ -336,7 +397,10 @@ static void pass_events(struct gm_run *run)
         run->behind = 1;
     } else if (outcome != GM_EVENTS_HAPPENED) {
         run->stopped = outcome == GM_EVENTS_ENDED;
-        run->status = outcome == GM_EVENTS_MANY ? GM_EVENTS_ACCUMULATE : run->status;
+        run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
+                      : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
+                                                   : run->status;
+        run->slides = step.slides;
         if (step.part) {
             run->t = run->t0 = step.reached;
             run->n = 0;
@@ -368,7 +432,11 @@ static bool make_together(struct gm_run *run)
     }
     if (good) {
         problem->events->values(problem, looks, TOGETHER, values);
-        good = !gm_events_are_near(problem, events_of(run, run->current), run->ends, values, TOGETHER) &&
+        const struct gm_event_step waiting = {.problem = problem,
+                                              .memory = events_of(run, run->current),
+                                              .ends = run->ends,
+                                              .locates = gm_run_locates(run)};
+        good = !gm_events_are_near(&waiting, values, TOGETHER) &&
                gm_memory_refusals() == refusals;
     }
     if (!good) {
@@ -380,7 +448,7 @@ static bool make_together(struct gm_run *run)
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
-    if (!events || !(events->changes || (run->ends && events->ends_runs))) {
+    if (!events || !(events->changes || (run->ends && events->ends_runs) || gm_run_locates(run))) {
         return make_steps(run, steps, until);
     }
     const bool ends = run->scheme->family->adaptive;
@@ -468,7 +536,7 @@ static double time_beyond(void *data, double fraction)
     struct gm_run *run = last->run;
     last->task.dt = fraction * last->dt;
     reset_workspace(run);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&last->task);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&last->task);
     last->t = progress.done == 1 ? progress.t : NAN;
     return last->t - last->until;
 }
@@ -490,7 +558,7 @@ static void end_at(struct gm_run *run, double until)
         last.task.t = run->t_behind;
         last.task.n -= run->behind;
         last.task.steps_before -= run->behind;
-        run->t_behind = gm_scheme_loop(run->scheme, run->problem)(&last.task).t;
+        run->t_behind = gm_scheme_loop(run->scheme, run->motion)(&last.task).t;
         from = run->current;
     }
     last.task = task_of(run, from, 1 - from, 1);
@@ -628,6 +696,8 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.shortens = run->shortens;
     then.witness = run->witness;
     then.event_scratch = run->event_scratch;
+    then.motion = run->motion;
+    then.frozen = run->frozen;
     then.behind = run->behind = 0;
     /* into the half that is not in use, until it is known to be a state; tracers may be lost */
     const size_t active = (run->problem->n - 2 * run->problem->passive) * run->problem->m;

@@ -32,6 +32,9 @@ struct gm_run {
     bool ends;        /* set by callers for whom events that end a run do so; others do not see them */
     struct gm_event_witness witness; /* set by callers who follow events */
     double *event_scratch;           /* NULL: the problem has no events; not in snapshots */
+    const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
+    void *frozen;                    /* keeps such problems; NULL: none, or breaks are not located */
+    size_t slides;                   /* with GM_SLIDING: the break */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem
@@ -48,6 +51,11 @@ const double *gm_run_memory(const struct gm_run *run);
 
 /* The memory of events (core/events.h); NULL: the problem has none. Valid until the next step. */
 const double *gm_run_events(const struct gm_run *run);
+
+/* Returns true if the run locates breaks: it has one member, and steps that can be made in parts. */
+bool gm_run_locates(const struct gm_run *run);
+/* Returns the motion that the next step begins with: the problem, or it with frozen switches. Valid until that step. */
+const struct gm_problem *gm_run_motion(struct gm_run *run);
 
 /* A count of the run for one member: the mean over the ensemble. */
 double gm_run_per_member(const struct gm_run *run, unsigned long count);

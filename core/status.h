@@ -12,6 +12,7 @@ enum gm_status {
     GM_OUT_OF_MEMORY,     /* the system gave no memory: nothing is wrong with the numbers so far */
     GM_STEP_TOO_SMALL,    /* step size control led to round-off of the time, or to too many steps */
     GM_EVENTS_ACCUMULATE, /* events follow each other in ever shorter times */
+    GM_SLIDING,           /* the rates on both sides of a break lead to it */
 };
 
 /* The reason why an implicit equation was not solved. */

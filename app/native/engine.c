@@ -83,6 +83,9 @@ static bool is_written(const struct gm_lane *lane)
 /* Returns true if the lane has compiled code, with the loops that its scheme calls. */
 static bool is_native(const struct gm_lane *lane)
 {
+    if (gm_run_locates(lane->run)) { /* the formulas change at each break */
+        return false;
+    }
     const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);
     const int over = gm_scheme_over_kernels(lane->scheme);
     if (taken && over == GM_OVER_ALL) {
@@ -372,6 +375,12 @@ void gm_engine_meet(struct gm_lane *lane)
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane)) {
         return;
     }
+    if (gm_run_locates(lane->run)) {
+        if (chosen == GM_ENGINE_NATIVE && tell) {
+            tell("the formulas are interpreted: breaks are located");
+        }
+        return;
+    }
     gm_user_problem_take_compiled(&lane->problem, gm_scheme_over_kernels(lane->scheme));
     if (chosen != GM_ENGINE_NATIVE || is_native(lane)) {
         return;
@@ -403,7 +412,7 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left)
 {
     static const double building = 5; /* seconds */
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane) || is_native(lane) || stopping ||
-        pthread_mutex_trylock(&making) != 0) {
+        gm_run_locates(lane->run) || pthread_mutex_trylock(&making) != 0) {
         return;
     }
     spent_in_all += spent;

@@ -553,8 +553,8 @@ gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, si
     return gm_formula_parts_of(graph, &node, 1, count);
 }
 
-bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
-                           const gm_node_id *replacement, size_t variables)
+bool gm_formula_rewrite(struct gm_formula *graph, gm_node_id *nodes, size_t count, gm_rewriter *become,
+                        const void *data)
 {
     size_t size = 0;
     gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
@@ -564,15 +564,16 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
     for (size_t p = 0; p < size && !graph->failed; p++) {
         const gm_node_id i = parts[p];
         const struct gm_node node = graph->nodes[i];
-        others[i] = i;
-        if (node.operation == GM_VARIABLE && node.a < variables && replacement[node.a] != GM_NO_NODE) {
-            others[i] = replacement[node.a];
-        } else if (node.operation > GM_VARIABLE) {
-            const gm_node_id a = others[node.a], second = gm_second_operand(&node), b = others[second];
-            graph->origin = gm_formula_origin(graph, i);
-            others[i] = a == node.a && b == second ? i : gm_simplified(graph, node.operation, a, b);
-            graph->origin = GM_NO_PLACE;
+        const bool applies = node.operation > GM_VARIABLE;
+        const gm_node_id second = applies ? gm_second_operand(&node) : i, a = applies ? others[node.a] : i,
+                         b = applies ? others[second] : i;
+        graph->origin = applies ? gm_formula_origin(graph, i) : GM_NO_PLACE;
+        others[i] = become(graph, i, a, b, data);
+        if (others[i] == GM_NO_NODE) {
+            const bool same = !applies || (a == node.a && b == second);
+            others[i] = same ? i : gm_formula_apply(graph, node.operation, a, b);
         }
+        graph->origin = GM_NO_PLACE;
     }
     for (size_t k = 0; k < count && !graph->failed; k++) {
         nodes[k] = others[nodes[k]];
@@ -580,6 +581,35 @@ bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t c
     free(parts);
     free(others);
     return !graph->failed;
+}
+
+struct replacement {
+    const gm_node_id *nodes;
+    size_t variables;
+};
+
+/* gm_rewriter */
+static gm_node_id replaced(struct gm_formula *graph, gm_node_id node, gm_node_id a, gm_node_id b,
+                           const void *data)
+{
+    const struct replacement *replacement = data;
+    const struct gm_node *variable = &graph->nodes[node];
+    (void)a;
+    (void)b;
+    return variable->operation == GM_VARIABLE && variable->a < replacement->variables
+               ? replacement->nodes[variable->a]
+               : GM_NO_NODE;
+}
+
+bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
+                           const gm_node_id *replacement, size_t variables)
+{
+    const bool before = graph->simplifies;
+    graph->simplifies = true;
+    const bool good =
+        gm_formula_rewrite(graph, nodes, count, replaced, &(struct replacement){replacement, variables});
+    graph->simplifies = before;
+    return good;
 }
 
 /* node = y sqrt(y) */

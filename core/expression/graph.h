@@ -94,6 +94,12 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
 /* gm_formula_apply with `simplifies` set, for derived formulas. */
 gm_node_id gm_simplified(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b);
 
+/* What a node becomes whose operands have become a and b; GM_NO_NODE: the same operation of these. */
+typedef gm_node_id gm_rewriter(struct gm_formula *graph, gm_node_id node, gm_node_id a, gm_node_id b,
+                               const void *data);
+/* Rewrites the nodes, in place, from their operands up. Returns false when out of memory. */
+bool gm_formula_rewrite(struct gm_formula *graph, gm_node_id *nodes, size_t count, gm_rewriter *become,
+                        const void *data);
 /* Replaces variable i by replacement[i], unless that is GM_NO_NODE, in the nodes, in place. Simplifies like a
    derivative. Returns false when out of memory. */
 bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,

@@ -10,6 +10,7 @@
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
 #include "core/linear/iteration.h"
+#include "core/model/breaks.h"
 #include "core/tape.h"
 
 static gm_node_id add_force(struct gm_user_system *system, gm_node_id rate, gm_node_id force)
@@ -1291,6 +1292,7 @@ static void derive_and_check(struct gm_arena *arena, void *data)
         }
         check_start(system);
         check_items(system);
+        gm_breaks_declare(system);
     }
     gm_system_need_graph(system);
     gm_arena_release(arena, mark);

@@ -11,6 +11,7 @@
 
 #include "core/basics.h"
 #include "core/expression/derivative.h"
+#include "core/model/breaks.h"
 #include "core/model/equations.h"
 
 /* Limits of the search: terms of a sum, terms tried one by one, nodes visited and nodes added for it. */
@@ -949,6 +950,21 @@ static const bool *find_switches(struct gm_arena *arena, const struct gm_user_sy
     return found;
 }
 
+size_t gm_facts_switches(struct gm_user_system *system)
+{
+    const size_t mark = gm_arena_mark(system->arena);
+    size_t count = 0, found = 0;
+    struct gm_user_system rates = *system; /* an energy may have more of them */
+    rates.kind = system->kind == GM_CANONICAL ? GM_RATES : system->kind;
+    const gm_node_id *parts = parts_of_equations(system->arena, &rates, &count);
+    const bool *switches = find_switches(system->arena, system);
+    for (size_t k = 0; k < count; k++) {
+        found += switches[parts[k]];
+    }
+    gm_arena_release(system->arena, mark);
+    return found;
+}
+
 /* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
 static void find_of_parts(const struct search *search)
 {
@@ -1114,6 +1130,11 @@ static void write_reason(struct gm_arena *arena, void *data)
         fputs(jumps(system->graph.nodes[finding->term].operation) ? ": it jumps" : ": its derivative jumps",
               out);
         write_switches(arena, reason);
+        if (system->kind <= GM_POISSON) {
+            fputs(gm_breaks_are_located(system) ? "; breaks are located, by schemes of one step"
+                                                : "; breaks are not located",
+                  out);
+        }
     }
 }
 

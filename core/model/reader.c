@@ -8,6 +8,7 @@
 #include "core/basics.h"
 #include "core/expression/linear_part.h"
 #include "core/expression/number.h"
+#include "core/model/breaks.h"
 
 static const struct gm_span nameless = {0, 0};
 
@@ -1132,6 +1133,7 @@ static bool read_once(struct gm_user_system *system, struct gm_reading *reading,
 {
     *system = (struct gm_user_system){.arena = gm_arena_open(), .fault = fault, .drift = GM_NO_NODE};
     gm_formula_open(&system->graph);
+    system->ignores_breaks = reading->ignores_breaks;
     reading->system = system;
     reading->scratch = gm_arena_open();
     const bool whole = reading->scratch && gm_arena_run(system->arena, read_system, reading);
@@ -1150,6 +1152,8 @@ bool gm_system_read(struct gm_user_system *system, const char *text, size_t leng
                       second;
     for (size_t i = 0; i < count; i++) {
         first.without_tangents |= strcmp(values[i].name, GM_WITHOUT_TANGENTS) == 0;
+        first.ignores_breaks |=
+            strcmp(values[i].name, GM_BREAKS_KEY) == 0 && strcmp(values[i].text, "ignored") == 0;
     }
     second = first;
     second.degenerate = true;

@@ -156,6 +156,7 @@ struct gm_user_system {
     size_t length;
     bool typed; /* the text is made of words: its line numbers have no meaning */
     struct gm_written_choices choices;
+    bool ignores_breaks; /* given: breaks=ignored (core/model/breaks.h) */
     struct gm_formula graph;
     char *texts[GM_WORDS]; /* texts of the words that have one; NULL: not given */
     size_t n;

@@ -822,6 +822,72 @@ printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nconstraint: x^2 + y^2 - 1\ns
 refused 1 'constraint' run ./held.system
 printf 'field: u\nrate: u = -u_x\nstart: u = sin(x)\nevent: u = 0; u = 1\n' >sea.system
 refused 1 'a field' run ./sea.system
+# breaks of piecewise rates are located: closed forms of pieces of parabolas, sines and exponentials
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + if(q > 0, 4, 1)*q^2/2\nstart: q = 0, p = 1\ndt: 0.1\nuntil: 20\n' >springs.system
+printf 'rate: x = -x + sign(sin(t))\nstart: x = 0\ndt: 0.1\nuntil: 10\n' >relay.system
+printf 'rate: x = 1, y = floor(x) + mod(2*x, 1) + ceil(x) + max(x, 2*x - 1.3) + heaviside(x - 1.7)\nstart: x = 0.2, y = 0\ndt: 0.1\nuntil: 3.05\n' >steps.system
+printf 'parameter: z = 0.05\nrate: x = v, v = -x - 2*z*v + 0.2*sign(v)\nstart: x = 0, v = 2.5\ndt: 0.1\nuntil: 60\n' >motor.system
+printf 'parameter: F = 0\nrate: x = v, v = F - x - 0.3*sign(v)\nstart: x = 1, v = 0\ndt: 0.1\nuntil: 20\n' >friction.system
+python3 - "$geomint" <<'END' || fail 'located breaks'
+import json, math, subprocess, sys
+def run(*words, code=0):
+    done = subprocess.run([sys.argv[1], "run", *words, "--json", "--state"], capture_output=True, text=True)
+    assert done.returncode == code, (words, done)
+    return json.loads(done.stdout)
+def error(file, exact, *words):
+    return max(abs(a - b) for a, b in zip(run(file, *words)["state"], exact))
+corner, springs = (4.7979746446661355, 1.9898987322333186), (0.3725565802396739, -0.666938061652263)
+for scheme in "rk4", "gauss4", "verlet", "avf2", "radau5", "yoshida4", "aba104": # each piece is a parabola
+    assert error("corner.system", corner, "scheme=" + scheme) < 1e-12, scheme
+assert run("corner.system", "scheme=avf2")["observables"]["energy_error"] < 1e-13
+assert run("corner.system", "scheme=avf2", "breaks=ignored")["observables"]["energy_error"] > 1e-3
+for scheme, order in ("rk4", 4), ("gauss4", 4), ("verlet", 2):
+    coarse, fine = (error("springs.system", springs, "scheme=" + scheme, dt) for dt in ("dt=0.05", "dt=0.025"))
+    assert abs(math.log2(coarse / fine) - order) < 0.2, (scheme, coarse, fine)
+assert error("relay.system", (0.07859308485389671, 10), "scheme=gauss8") < 1e-13
+# rates that are linear between breaks: the midpoint rule for each piece
+places, sum = (0.2, 0.5, 1, 1.3, 1.5, 1.7, 2, 2.5, 3, 3.25), 0
+for a, b in zip(places, places[1:]):
+    x = (a + b) / 2
+    sum += (b - a) * (math.floor(x) + 2*x % 1 + math.ceil(x) + max(x, 2*x - 1.3) + (x > 1.7))
+assert error("steps.system", (3.25, sum), "scheme=rk4") < 1e-13
+# half a turn takes x to c + (x - c) exp(-pi z / w) of the other sign; without the jump of the rates in the tangent map the
+# multiplier is the square of this
+slow = math.exp(-2 * math.pi * 0.05 / math.sqrt(1 - 0.05**2))
+orbit = subprocess.run([sys.argv[1], "orbit", "motor.system", "--json"], capture_output=True, text=True)
+found = json.loads(orbit.stdout)
+assert abs(found["period"] - 6.291054045776003) < 1e-12, found
+assert min(abs(re - slow) + abs(im) for re, im in found["multipliers"]) < 1e-9, (found, slow)
+# at rest by friction from the turn on at which it is stronger than the spring: x = 1, -0.4, -0.2
+stuck = run("friction.system", "scheme=gauss8", code=2)
+assert stuck["status"] == "sliding" and abs(stuck["t"] - 2 * math.pi) < 1e-11, stuck
+assert "slides along v = 0 from t = 6.283185307: both rates point at it" in stuck["message"], stuck
+assert abs(stuck["state"][0] + 0.2) < 1e-12, stuck
+held = run("friction.system", "scheme=rk4", "F=1.1", code=2)
+assert held["status"] == "sliding" and held["t"] == 0, held
+# a start on the switch, and one that leaves it with a rate of 0
+assert error("corner.system", (0, 0), "q=0", "scheme=rk4") == 0
+END
+"$geomint" certify avf2 --on corner.system >out || fail "certify through breaks: $(cat out)"
+grep -q 'H conserves energy  *holds' out || fail "avf2 through breaks: $(cat out)"
+"$geomint" certify avf2 --on corner.system breaks=ignored >out || fail "certify across corners: $(cat out)"
+grep -q 'H conserves energy  *not decided' out || fail "avf2 across corners: $(cat out)"
+"$geomint" certify rk4 --on springs.system >out && grep -q 'order 4, measured \(3.9\|4.0\)' out ||
+    fail "order through breaks: $(cat out)"
+"$geomint" certify rk4 --on springs.system breaks=ignored >out && grep -q 'no order can be measured' out ||
+    fail "order across jumps: $(cat out)"
+"$geomint" list springs.system --long | grep -q 'smooth .*breaks are located' || fail 'breaks in the list'
+# a switch that is never met changes no bit
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8) + mod(q + 2, 100)/3\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system
+for scheme in verlet-position rk4 gauss4 midpoint avf2 radau5 tao2; do
+    for breaks in located ignored; do
+        "$geomint" run far.system scheme=$scheme breaks=$breaks --json --state | grep -o '"state".*' >$breaks.state
+    done
+    [ -s located.state ] && cmp -s located.state ignored.state || fail "switches that are far away change bits by $scheme"
+done
+refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
+refused 1 'no parameter "breaks"' run ./wall.system breaks=located
 # a quotient that is infinite on the way to a finite rate
 # rates and brackets stand in one line or in several
 printf 'rate: x = y, y = -mu*max(x, 0)\nparameter: mu = 2\nstart: x = 1, y = 0\n' >one.system

@@ -308,6 +308,7 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_OUT_OF_MEMORY] = "found no memory",
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
             [GM_EVENTS_ACCUMULATE] = "has events without end",
+            [GM_SLIDING] = "slides along a switch",
         };
         say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
             sentences[latest->run->status], latest->run->t,

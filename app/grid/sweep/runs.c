@@ -20,7 +20,7 @@
 #include "core/schemes.h"
 
 const char gm_sweep_statuses[] =
-    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, step-too-small, events-accumulate, out-of-memory, refused, warning";
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, step-too-small, events-accumulate, sliding, out-of-memory, refused, warning";
 
 /* Returns true if a word determines the list of runs and is not a key of a run. */
 static bool is_of_the_list(const struct gm_word *word)

@@ -302,10 +302,11 @@ static bool go_on(const struct gm_subject *subject, double *end)
 {
     /* An adaptive scheme may end when no step is possible: the steps before count. */
     const bool adaptive = subject->scheme->family->adaptive;
-    const double dt = adaptive ? subject->dt / 200 : subject->dt / 12;
+    const double dt = adaptive ? subject->dt / 200 : subject->dt / 12,
+                 steps = fmax(adaptive ? 1000 : 100, ceil(1.1 * subject->passed / dt));
     double whole[MOST];
     gm_subject_start(subject, whole);
-    return gm_subject_advance(subject, dt, adaptive ? 1000 : 100, whole, end) || adaptive;
+    return gm_subject_advance(subject, dt, (int64_t)steps, whole, end) || adaptive;
 }
 
 static double change_of(const struct gm_kept *kept, const double *from, const double *to)

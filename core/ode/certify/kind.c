@@ -248,7 +248,7 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
         if (!(claims & claim)) {
             continue;
         }
-        if (changes && gm_ode_of(&subject->problem)->rough) {
+        if (changes && gm_ode_of(&subject->problem)->rough && isnan(subject->passed)) {
             /* the quantity may differ across a corner of the field */
             gm_certificate_undecided(certificate, claim, name);
         } else if (changes && drift < gm_round_off_of(subject, kept)) {
@@ -339,7 +339,8 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         {GM_KEEPS_MOMENTUM_MAPS, false, "the system names no symmetry that moves q by affine maps"},
         {GM_KEEPS_CASIMIRS, false, poisson ? "the system names no Casimir" : no_bracket},
     };
-    const struct gm_subject between = gm_subject_between_events(subject);
+    struct gm_subject between = gm_subject_between_events(subject);
+    between.start = subject->away ? subject->away : between.start;
     measure_order(certificate, subject);
     for (size_t i = 0; i < subject->kept_count; i++) {
         measure_kept(certificate, subject, &subject->kept[i]);
@@ -353,7 +354,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
                               gm_defect(&between, claim, tolerance) <= tolerance;
         if (!claims[i].measured || by_event) {
             gm_certificate_withhold(certificate, claim,
-                                    by_event ? "it holds between events, and an event breaks it"
+                                    by_event ? "it holds between events and breaks, not through them"
                                              : claims[i].otherwise);
         } else {
             note(certificate, claim, defect, subject->problem.name);
@@ -426,13 +427,20 @@ static void follow_all(struct gm_certificate *certificate, const struct gm_subje
 }
 
 /* Leaves satisfied claims undecided on a system that is not smooth: the few steps may all lie on one side of
-   a corner. A failed claim stays so. */
-static void doubt(struct gm_certificate *certificate)
+   a corner. A failed claim stays so. Where breaks are located and the stretch passes each of them twice, a drift is decided;
+   so are steps forth and back through the only one. */
+static void doubt(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
+    const unsigned drifts = GM_KEEPS_ENERGY | GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR |
+                            GM_KEEPS_MOMENTUM_MAPS,
+                   back = GM_SYMMETRIC | GM_REVERSIBLE,
+                   decided = isnan(subject->passed)                  ? 0
+                             : subject->problem.events->breaks == 1 ? drifts | back
+                                                                    : drifts;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *verdict = &certificate->claims[bit];
         const bool held = verdict->measured && verdict->defect <= verdict->tolerance;
-        if (held || verdict->undecided) {
+        if (!(decided >> bit & 1) && (held || verdict->undecided)) {
             verdict->measured = false;
             verdict->undecided = true;
             verdict->reason = "the system is not smooth, and these few steps may not have crossed a corner";
@@ -440,26 +448,62 @@ static void doubt(struct gm_certificate *certificate)
     }
 }
 
-/* Returns the state half a step before the first event of a run; the caller frees. NULL: none happens in 2000 steps, or
-   when out of memory. */
-static double *start_before_event(const struct gm_subject *subject)
+/* The events of a run: the time of the first, and the one when each break has been passed twice; NaN: not yet. */
+struct passages {
+    const struct gm_problem *problem;
+    double first, twice;
+    unsigned *counts;
+};
+
+static void see_passage(void *data, const struct gm_event_part *part)
+{
+    struct passages *passages = data;
+    const struct gm_events *events = passages->problem->events;
+    const double t = part->before[passages->problem->n];
+    unsigned least = ++passages->counts[part->event];
+    passages->first = isnan(passages->first) ? t : passages->first;
+    for (size_t i = events->count - events->breaks; i < events->count; i++) {
+        least = passages->counts[i] < least ? passages->counts[i] : least;
+    }
+    passages->twice =
+        isnan(passages->twice) && events->breaks > 0 && least >= 2 ? t : passages->twice;
+}
+
+/* Returns the state half a step before the first event or break of a run, and one a whole step earlier, from which one step
+   meets none. From the first a stretch of length *passed passes
+   each break twice, if that is not NaN; the caller frees. NULL: none happens in 2000 steps, or when out of memory. */
+static double *start_before_event(const struct gm_subject *subject, double *passed)
 {
     const struct gm_problem *problem = &subject->problem;
+    const struct gm_events *events = problem->events;
     const struct gm_settings settings = gm_subject_settings(subject->dt);
     const size_t bytes = problem->n * sizeof(double);
-    double *state = problem->events && problem->events->changes ? malloc(bytes) : NULL;
+    struct passages passages = {problem, NAN, NAN, NULL};
+    const bool looks = events && (events->changes || events->breaks > 0);
+    double *state = looks ? malloc(2 * bytes) : NULL;
+    passages.counts = looks ? calloc(events->count, sizeof *passages.counts) : NULL;
     struct gm_run *run =
-        state ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
-    double first = NAN;
-    for (int steps = 0; run && isnan(first) && steps < 2000 && gm_run_advance(run, 1) == GM_OK; steps++) {
-        const bool happened = gm_events_happened(problem, gm_run_events(run), problem->events->count) > 0;
-        first = happened ? gm_events_last(problem, gm_run_events(run)) : NAN;
+        state && passages.counts
+            ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start)
+            : NULL;
+    if (run) {
+        run->witness = (struct gm_event_witness){see_passage, &passages};
+    }
+    for (int steps = 0; run && steps < 2000 && isnan(events->breaks > 0 ? passages.twice : passages.first) &&
+                        gm_run_advance(run, 1) == GM_OK;
+         steps++) {
     }
     gm_run_close(run);
-    const double until = first - subject->dt / 2, whole = floor(until / subject->dt);
+    free(passages.counts);
+    const double until = passages.first - subject->dt / 2, whole = floor(until / subject->dt);
+    *passed = events && events->changes ? NAN : passages.twice - (whole >= 0 ? until : 0);
     run =
         whole >= 0 ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
-    bool there = run && gm_run_advance(run, (int64_t)whole) == GM_OK;
+    bool there = run && (whole < 1 || gm_run_advance(run, (int64_t)whole - 1) == GM_OK);
+    if (there) {
+        memcpy(state + problem->n, gm_run_state(run), bytes);
+        there = whole < 1 || gm_run_advance(run, 1) == GM_OK;
+    }
     if (there) {
         gm_run_set_step(run, until - whole * subject->dt);
         there = gm_run_advance(run, 1) == GM_OK;
@@ -492,8 +536,10 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         /* of other schemes the claim is about canonical coordinates, and of this one about half of theta */
         gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
     }
-    double *start = start_before_event(&subject);
+    double *start = start_before_event(&subject, &subject.passed);
+    subject.away = start && !isnan(subject.passed) ? start + subject.problem.n : NULL;
     subject.start = start ? start : subject.start;
+    subject.unit = fmax(subject.unit, subject.passed / 2);
     measure(certificate, &subject);
     const struct gm_subject between = gm_subject_between_events(&subject);
     follow_all(certificate, &between);
@@ -502,17 +548,21 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         subject.unit /= 8;
         measure_order(certificate, &subject);
     }
-    if (gm_ode_of(system->problem)->rough) {
+    const bool rough = gm_ode_of(system->problem)->rough;
+    if (rough && isnan(subject.passed)) {
         certificate->order = NAN;
         certificate->ladder.settled = false;
-        certificate->order_reason = "the system is not smooth, so that no order can be measured";
+        certificate->order_reason =
+            system->problem->events && system->problem->events->breaks > 0
+                ? "the system is not smooth, and 2000 steps do not pass each break twice"
+                : "the system is not smooth, so that no order can be measured";
     } else if (isnan(certificate->order)) {
         certificate->order_reason = "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     gm_certificate_withhold_all(certificate, UINT_MAX, "it means nothing of ordinary differential equations");
-    if (gm_ode_of(system->problem)->rough) {
-        doubt(certificate);
+    if (rough) {
+        doubt(certificate, &subject);
     }
     free(start);
 }

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_ODE_CERTIFY_MEASURE_H
 #define GM_CORE_ODE_CERTIFY_MEASURE_H
 
+#include "core/events.h"
 #include "core/ode/user/model.h"
 #include "core/theory/certify.h"
 
@@ -15,6 +16,8 @@ struct gm_subject {
     const struct gm_scheme *scheme; /* that is measured */
     const double *start;
     double dt;                  /* step size; large enough that RK4 shows a symplecticity defect above 1e-6 */
+    const double *away;         /* a start from which one step passes no break; NULL: not known */
+    double passed;              /* a stretch that passes each located break twice; NaN or 0: none is known */
     double unit;                /* unit of the times at which the order is measured */
     double scale;               /* size of the components */
     bool volume;                /* preservation of volume is measured: no energy, no bracket */
@@ -35,11 +38,13 @@ size_t gm_subject_components(const struct gm_subject *subject);
 /* Writes the start of the components that a scheme maps. */
 void gm_subject_start(const struct gm_subject *subject, double *whole);
 
-/* Returns the subject without events. */
+/* Returns the subject without events that change its state. */
 static inline struct gm_subject gm_subject_between_events(const struct gm_subject *subject)
 {
     struct gm_subject between = *subject;
-    between.problem.events = NULL;
+    if (subject->problem.events && subject->problem.events->changes) {
+        between.problem.events = NULL;
+    }
     return between;
 }
 

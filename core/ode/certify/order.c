@@ -36,7 +36,7 @@ static bool solve_with_events(const struct gm_problem *problem, double until, do
 static bool solve_by_gsl(const struct gm_problem *problem, double until, double *y)
 {
     struct gm_problem copy = *problem;
-    if (problem->events && problem->events->changes) {
+    if (problem->events && (problem->events->changes || problem->events->breaks > 0)) {
         return solve_with_events(problem, until, y);
     }
     return gm_certify_solve(&(gsl_odeiv2_system){field_for_gsl, NULL, problem->n, &copy}, 1e-15, until, y);

@@ -23,7 +23,8 @@
 struct gm_tangent {
     struct gm_arena *arena; /* owns all memory but the runs */
     struct gm_run *run;
-    struct gm_problem between; /* the problem without events */
+    const struct gm_problem *motion; /* of the step or part, with its switches frozen */
+    struct gm_problem between;       /* the same without events */
     struct gm_run *probe;      /* a second run for differences; NULL: not needed yet */
     double h;                  /* the length of the step or part */
     size_t n, memory;
@@ -162,6 +163,21 @@ static void open_stages(struct gm_tangent *tangent, const struct gm_coefficients
     choose_components(tangent);
 }
 
+/* Takes the motion of the next part. */
+static void take(struct gm_tangent *tangent, const struct gm_problem *motion)
+{
+    if (motion != tangent->motion) {
+        tangent->motion = motion;
+        tangent->between = *motion;
+        tangent->between.events = NULL;
+        gm_run_close(tangent->probe);
+        tangent->probe = NULL;
+        if (tangent->stages > 0) {
+            tangent->kicked[0] = NAN;
+        }
+    }
+}
+
 struct opening {
     struct gm_run *run;
     struct gm_tangent *tangent;
@@ -176,8 +192,7 @@ static void open_all(struct gm_arena *arena, void *data)
     struct gm_tangent *tangent = opening->tangent = gm_arena_take(arena, 1, sizeof *tangent);
     tangent->arena = arena;
     tangent->run = run;
-    tangent->between = *run->problem;
-    tangent->between.events = NULL;
+    take(tangent, run->problem);
     tangent->n = run->problem->n;
     tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
     const size_t size = gm_tangent_size(tangent);
@@ -341,7 +356,7 @@ bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
 static void evaluate(const struct gm_tangent *tangent, const double *y, size_t stage)
 {
     const size_t n = tangent->n;
-    const struct gm_problem *problem = tangent->run->problem;
+    const struct gm_problem *problem = tangent->motion;
     const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
     if (!tangent->again) {
         loops->field(problem, y, tangent->k + stage * n, 1);
@@ -455,7 +470,7 @@ static void find_base(const struct gm_tangent *tangent, const double *v, size_t 
 static void find_slopes(const struct gm_tangent *tangent, size_t stage, const double *y, const double *dy)
 {
     const size_t n = tangent->n, half = n / 2, from = tangent->from[stage], to = tangent->to[stage];
-    const struct gm_split *split = gm_ode_of(tangent->run->problem)->split;
+    const struct gm_split *split = gm_ode_of(tangent->motion)->split;
     double *k = tangent->k + stage * n;
     if (split && split->unit_mass && from == 0 && to == half) {
         memcpy(k, y + half, half * sizeof *k);
@@ -545,11 +560,13 @@ static void see_event(void *data, const struct gm_event_part *part)
     const size_t n = tangent->n, size = gm_tangent_size(tangent);
     const double t = part->before[n];
     tangent->events++;
+    take(tangent, part->ahead);
     tangent->broken = tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before));
     for (size_t k = 0; k < tangent->count && !tangent->broken; k++) {
         tangent->grazes = tangent->broken =
-            !problem->events->carry(problem, part->event, part->before, part->after, tangent->v + k * size);
+            !problem->events->carry(problem, part, tangent->v + k * size);
     }
+    take(tangent, part->beyond);
     memcpy(tangent->before, part->after, n * sizeof *tangent->before);
     tangent->t = t;
 }
@@ -557,6 +574,11 @@ static void see_event(void *data, const struct gm_event_part *part)
 bool gm_tangent_step(struct gm_tangent *tangent, double *v, size_t count)
 {
     struct gm_run *run = tangent->run;
+    const struct gm_problem *motion = gm_run_motion(run);
+    if (!motion) {
+        return false;
+    }
+    take(tangent, motion);
     take_before(tangent);
     tangent->v = v;
     tangent->count = count;
@@ -638,6 +660,11 @@ static bool advance_together(struct gm_tangent *tangent, double *v, size_t steps
 size_t gm_tangent_advance(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
 {
     size_t count = 0;
+    const struct gm_problem *motion = gm_run_motion(tangent->run);
+    if (!motion) {
+        return 0;
+    }
+    take(tangent, motion);
     tangent->together = tangent->together && advance_together(tangent, v, steps, made);
     if (tangent->together) {
         return steps;

@@ -28,6 +28,8 @@ enum gm_user_formula {
     GM_USER_ONE_FORM,
     GM_USER_SURFACES, /* of components and the time: where events happen, and what is conserved between them */
     GM_USER_BOOKED,
+    GM_USER_BREAKS, /* g of each break; x of those at whole numbers, else g */
+    GM_USER_WHOLES,
     GM_USER_FORMULAS
 };
 
@@ -53,7 +55,7 @@ struct gm_user_data {
     struct gm_degenerate degenerate;
     struct gm_late_tape tapes[GM_USER_FORMULAS];
     struct gm_events events;
-    struct gm_late_tape *changes, *event_slopes; /* of each event: conditions and new values; slopes */
+    struct gm_late_tape *changes, *event_slopes; /* of each event: conditions and new values; slopes, also of breaks */
     struct gm_late_tape *rates;  /* one by one, where each component alone has an exact flow; else NULL */
     struct gm_late_tape *pieces; /* of the energy of a bracket: rates and slopes of each */
     double *frequencies;         /* one per coordinate */

@@ -9,17 +9,27 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/user/data.h"
+#include "core/ode/user/problem.h"
 
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
    components and the time. */
 static void values(const struct gm_problem *problem, const double *look, size_t looks, double *g)
 {
-    gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
+    struct gm_user_data *self = gm_user_data_of(problem);
+    const size_t count = self->model->event_count, breaks = self->events.breaks;
+    if (count > 0) {
+        gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
+    }
+    if (breaks > 0) {
+        gm_late_tape_values(&self->tapes[GM_USER_BREAKS], look, g + count * looks, looks);
+    }
 }
 
 static const struct gm_user_event *event_of(const struct gm_problem *problem, size_t event)
 {
-    return &gm_user_data_of(problem)->model->events[event];
+    const struct gm_user_model *model = gm_user_data_of(problem)->model;
+    return event < model->event_count ? &model->events[event]
+                                      : &model->frozen->events[event - model->event_count];
 }
 
 /* Writes the conditions and the new values; NULL when out of memory, which is noted. The caller frees. */
@@ -35,8 +45,9 @@ static double *outcome_of(const struct gm_problem *problem, size_t event, const 
 
 static bool happens(const struct gm_problem *problem, size_t event, const double *look)
 {
-    double *outcome = outcome_of(problem, event, look);
-    bool all = outcome != NULL;
+    const bool changes = event < gm_user_data_of(problem)->model->event_count;
+    double *outcome = changes ? outcome_of(problem, event, look) : NULL;
+    bool all = outcome || !changes;
     for (size_t i = 0; all && i < event_of(problem, event)->conditions; i++) {
         all = outcome[i] > 0;
     }
@@ -60,11 +71,11 @@ static void slopes_along(const struct gm_problem *problem, size_t event, const d
     }
 }
 
-/* Writes the rates of all components, and 1 for the time. */
-static void field_at(const struct gm_problem *problem, const double *look, double *rates)
+/* Writes the rates of all components of a motion, and 1 for the time. */
+static void field_at(const struct gm_problem *motion, const double *look, double *rates)
 {
-    gm_field(problem, look, rates, 1);
-    rates[gm_user_data_of(problem)->model->system->n] = 1;
+    gm_field(motion, look, rates, 1);
+    rates[gm_user_data_of(motion)->model->system->n] = 1;
 }
 
 /* The parts of S. */
@@ -75,9 +86,10 @@ struct saltation {
     double size;                   /* of the terms of the first of along_rates */
 };
 
-/* Takes the memory, and writes what follows from the state before an event. Returns false when out of memory. */
-static bool open_saltation(const struct gm_problem *problem, size_t event, const double *before,
-                           struct saltation *saltation)
+/* Takes the memory, and writes what follows from the state before an event of the problem, and the motion there. Returns
+   false when out of memory. */
+static bool open_saltation(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
+                           const double *before, struct saltation *saltation)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
     const size_t width = problem->n + 1, rows = 1 + formulas->changed;
@@ -91,33 +103,34 @@ static bool open_saltation(const struct gm_problem *problem, size_t event, const
     saltation->along_rates = saltation->v + width;
     saltation->along_v = saltation->along_rates + rows;
     gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation->slopes, 1);
-    field_at(problem, before, saltation->before);
+    field_at(motion, before, saltation->before);
     slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
                  &saltation->size);
     return true;
 }
 
-static double rate(const struct gm_problem *problem, size_t event, const double *look)
+static double rate(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
+                   const double *look)
 {
     struct saltation saltation;
-    const double sum = open_saltation(problem, event, look, &saltation) ? saltation.along_rates[0] : NAN;
+    const double sum = open_saltation(problem, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
     free(saltation.slopes);
     return sum;
 }
 
 /* to := S from, for every tangent that the state holds, or for an error if it holds none. Returns false where the
    motion only touches g = 0, or when out of memory. */
-static bool carry_all(const struct gm_problem *problem, size_t event, const double *before,
-                      const double *after, const double *from, double *to)
+static bool carry_all(const struct gm_problem *problem, const struct gm_event_part *part, const double *from,
+                      double *to)
 {
-    const struct gm_user_event *formulas = event_of(problem, event);
+    const struct gm_user_event *formulas = event_of(problem, part->event);
     const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
     const size_t motion = gm_system_motion(system);
     struct saltation saltation;
-    if (!open_saltation(problem, event, before, &saltation)) {
+    if (!open_saltation(problem, part->ahead, part->event, part->before, &saltation)) {
         return false;
     }
-    field_at(problem, after, saltation.after);
+    field_at(part->beyond, part->after, saltation.after);
     const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * saltation.size;
     for (size_t k = system->tangents > 0; k <= system->tangents && passes; k++) {
         double *v = saltation.v, unused;
@@ -126,7 +139,7 @@ static bool carry_all(const struct gm_problem *problem, size_t event, const doub
             v[gm_system_component(system, c, 0)] = from[gm_system_component(system, c, k)];
         }
         v[system->n] = k == 0 && problem->n > system->n ? from[system->n] : 0;
-        slopes_along(problem, event, saltation.slopes, v, saltation.along_v, &unused);
+        slopes_along(problem, part->event, saltation.slopes, v, saltation.along_v, &unused);
         const double late = saltation.along_v[0] / saltation.along_rates[0];
         for (size_t c = 0, row = 0; c < system->n; c++) {
             const bool changes = row < formulas->changed && formulas->components[row] == c;
@@ -142,29 +155,31 @@ static bool carry_all(const struct gm_problem *problem, size_t event, const doub
     return passes;
 }
 
-static bool carry(const struct gm_problem *problem, size_t event, const double *before, const double *after,
-                  double *v)
+static bool carry(const struct gm_problem *problem, const struct gm_event_part *part, double *v)
 {
-    return gm_user_data_of(problem)->model->system->tangents == 0 &&
-           carry_all(problem, event, before, after, v, v);
+    return gm_user_data_of(problem)->model->system->tangents == 0 && carry_all(problem, part, v, v);
 }
 
-/* Tangents among the components are carried; NaN where the motion only touches g = 0. */
+/* NaN where the motion only touches g = 0. */
+static void carry_within(const struct gm_problem *problem, const struct gm_event_part *part, double *y)
+{
+    const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
+    if (system->tangents > 0 && !carry_all(problem, part, part->before, y)) {
+        for (size_t c = 0; c < gm_system_motion(system); c++) {
+            y[gm_system_component(system, c, 1)] = NAN;
+        }
+    }
+}
+
 static void change(const struct gm_problem *problem, size_t event, const double *look, double *y)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
-    const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
     double *outcome = outcome_of(problem, event, look);
     memcpy(y, look, problem->n * sizeof *y);
     for (size_t i = 0; i < formulas->changed; i++) {
         y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
     }
     free(outcome);
-    if (system->tangents > 0 && !carry_all(problem, event, look, y, look, y)) {
-        for (size_t c = 0; c < gm_system_motion(system); c++) {
-            y[gm_system_component(system, c, 1)] = NAN;
-        }
-    }
 }
 
 static void conserved(const struct gm_problem *problem, const double *look, double *quantities)
@@ -179,12 +194,126 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
     }
 }
 
+/* ---- problems with frozen switches ---- */
+
+/* For a whole number, the one below x whose parity the sign of sin(pi x) tells, for x close to a jump as well. */
+static double mode(const struct gm_problem *problem, size_t event, const double *look, double sign)
+{
+    const struct gm_user_frozen *frozen = gm_user_data_of(problem)->model->frozen;
+    double values[GM_MOST_BREAKS];
+    const size_t i = event - gm_user_data_of(problem)->model->event_count;
+    if (frozen->list[i].whole == GM_NO_NODE) {
+        return sign;
+    }
+    gm_user_values(problem, GM_USER_WHOLES, look, values, 1);
+    const double x = values[i], below = floor(x);
+    const bool even = fmod(below, 2) == 0;
+    return sign == 0 || even == (sign > 0) ? below : x - below < 0.5 ? below - 1 : below + 1;
+}
+
+enum { KEPT = 8 };
+
+/* Problems with frozen switches, the last ones that were asked for. */
+struct frozen_problems {
+    size_t count, next, latest;
+    struct {
+        struct gm_problem problem;
+        double modes[GM_MOST_BREAKS];
+    } list[KEPT];
+};
+
+/* Opens a problem with these switches. */
+static bool open_frozen(const struct gm_problem *problem, const double *modes, struct gm_problem *opened)
+{
+    const struct gm_user_data *data = gm_user_data_of(problem);
+    const struct gm_user_frozen *frozen = data->model->frozen;
+    const size_t own = data->model->system->variable_count;
+    double *values = malloc(frozen->system.variable_count * sizeof *values);
+    if (!values) {
+        return false;
+    }
+    memcpy(values, data->values, own * sizeof *values);
+    memcpy(values + own, modes, frozen->count * sizeof *values);
+    const bool good = gm_user_problem_open(opened, &frozen->model, values);
+    free(values);
+    if (good) {
+        opened->name = problem->name;
+        opened->bound = problem->bound;
+        opened->events = NULL;
+    }
+    return good;
+}
+
+static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
+{
+    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
+    struct frozen_problems *problems = *frozen = *frozen ? *frozen : calloc(1, sizeof *problems);
+    if (!problems) {
+        return NULL;
+    }
+    for (size_t k = 0; k < problems->count; k++) {
+        const size_t i = (problems->latest + k) % problems->count;
+        if (memcmp(problems->list[i].modes, modes, size) == 0) {
+            problems->latest = i;
+            return &problems->list[i].problem;
+        }
+    }
+    problems->next += problems->count == KEPT && problems->next == problems->latest; /* it is still in use */
+    const size_t i = problems->count < KEPT ? problems->count : problems->next++ % KEPT;
+    problems->next %= KEPT;
+    gm_user_problem_close(&problems->list[i].problem);
+    memset(problems->list[i].modes, 0xff, sizeof problems->list[i].modes); /* if it cannot be opened */
+    problems->count += problems->count < KEPT && i == problems->count;
+    if (!open_frozen(problem, modes, &problems->list[i].problem)) {
+        return NULL;
+    }
+    memcpy(problems->list[i].modes, modes, size);
+    problems->latest = i;
+    return &problems->list[i].problem;
+}
+
+static void melt(void *frozen)
+{
+    struct frozen_problems *problems = frozen;
+    for (size_t i = 0; problems && i < problems->count; i++) {
+        gm_user_problem_close(&problems->list[i].problem);
+    }
+    free(problems);
+}
+
+/* ---- opening ---- */
+
+/* Names the tapes of located breaks; `text` is that of g = 0, for sentences. */
+static void open_breaks(struct gm_user_data *self, const char **names)
+{
+    const struct gm_user_frozen *frozen = self->model->frozen;
+    const struct gm_formula *graph = &frozen->system.graph;
+    const size_t first = self->model->event_count, inputs = self->model->system->n + 1;
+    const struct gm_naming naming = gm_system_naming(&frozen->system);
+    for (size_t i = 0; i < frozen->count; i++) {
+        const struct gm_user_event *event = &frozen->events[i];
+        char *text = gm_formula_text(graph, frozen->surfaces[i], &naming);
+        names[first + i] = gm_arena_print(self->arena, "%.120s", text ? text : "a long term");
+        free(text);
+        self->event_slopes[first + i] = (struct gm_late_tape){
+            graph, event->slope_nodes, event->slopes.count, inputs, self->values, NULL};
+        gm_arena_keep(self->arena, &self->event_slopes[first + i], gm_late_tape_close);
+    }
+    self->tapes[GM_USER_BREAKS] =
+        (struct gm_late_tape){graph, frozen->surfaces, frozen->count, inputs, self->values, NULL};
+    self->tapes[GM_USER_WHOLES] = (struct gm_late_tape){
+        graph, frozen->surfaces + frozen->count, frozen->count, inputs, self->values, NULL};
+    gm_arena_keep(self->arena, &self->tapes[GM_USER_BREAKS], gm_late_tape_close);
+    gm_arena_keep(self->arena, &self->tapes[GM_USER_WHOLES], gm_late_tape_close);
+}
+
 void gm_user_events_open(struct gm_problem *problem)
 {
     struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_user_model *model = self->model;
     const struct gm_user_system *system = model->system;
-    const size_t count = model->event_count, inputs = system->n + 1;
+    const size_t written = model->event_count, breaks = model->frozen ? model->frozen->count : 0,
+                 count = written + breaks, inputs = system->n + 1;
     if (count == 0) {
         return;
     }
@@ -195,6 +324,7 @@ void gm_user_events_open(struct gm_problem *problem)
     self->changes = gm_arena_take(self->arena, count, sizeof *self->changes);
     self->event_slopes = gm_arena_take(self->arena, count, sizeof *self->event_slopes);
     self->events = (struct gm_events){.count = count,
+                                      .breaks = breaks,
                                       .names = names,
                                       .ends = ends,
                                       .values = values,
@@ -202,8 +332,15 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .change = change,
                                       .rate = rate,
                                       .carry = carry,
+                                      .carry_within = carry_within,
+                                      .mode = mode,
+                                      .freeze = freeze,
+                                      .melt = melt,
                                       .conserved = conserved};
-    for (size_t i = 0; i < count; i++) {
+    if (breaks > 0) {
+        open_breaks(self, names);
+    }
+    for (size_t i = 0; i < written; i++) {
         const struct gm_user_event *event = &model->events[i];
         names[i] = event->item->name;
         ends[i] = event->item->ends;
@@ -225,7 +362,7 @@ void gm_user_events_open(struct gm_problem *problem)
         booked[quantities] = system->energy;
     }
     self->events.quantities = quantities + self->events.has_energy;
-    gm_user_compile(self, &self->tapes[GM_USER_SURFACES], model->surfaces, count, inputs);
+    gm_user_compile(self, &self->tapes[GM_USER_SURFACES], model->surfaces, written, inputs);
     gm_user_compile(self, &self->tapes[GM_USER_BOOKED], booked,
                     quantities + (self->events.has_energy && formula), inputs);
     problem->events = &self->events;

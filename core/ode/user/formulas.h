@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "core/expression/derivative.h"
+#include "core/model/breaks.h"
 #include "core/model/facts.h"
 #include "core/ode/families/splitting/linear_flow.h"
 #include "core/ode/ode.h"
@@ -76,7 +77,18 @@ struct gm_user_model {
     struct gm_user_event *events; /* in the order of the file */
     size_t event_count;
     gm_node_id *surfaces; /* [event_count], the g that become 0 */
+    struct gm_user_frozen *frozen; /* NULL: no breaks are located */
     const char *names;    /* the components' names, in the format of struct gm_ode */
+};
+
+/* The same system with its switches frozen (core/model/breaks.h); it has further variables behind its own. */
+struct gm_user_frozen {
+    struct gm_user_system system;
+    struct gm_user_model model;
+    struct gm_break *list;
+    size_t count;
+    gm_node_id *surfaces;         /* [count], g of each; then x of those at whole numbers, else g */
+    struct gm_user_event *events; /* [count], with the slopes of g */
 };
 
 /* Derive the formulas of these, in the arena's body, which is left when out of memory; the graph grows. */
@@ -84,5 +96,6 @@ void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian
                                struct gm_user_system *system);
 void gm_user_bracket_derive(struct gm_arena *arena, struct gm_user_bracket *model,
                             struct gm_user_system *system);
+void gm_user_breaks_derive(struct gm_arena *arena, struct gm_user_model *model);
 
 #endif

@@ -72,6 +72,7 @@ struct opening {
     struct gm_user_model *model;
     struct gm_user_system *system;
     bool *marked; /* the components */
+    bool whole;   /* with the formulas whose switches are frozen */
 };
 
 /* The monitor's node and those of its gradient. */
@@ -236,12 +237,25 @@ static void open_model(struct gm_arena *arena, void *data)
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }
     gm_arena_need(arena, !system->graph.failed);
+    if (opening->whole && gm_breaks_are_located(system)) {
+        gm_user_breaks_derive(arena, model);
+    }
+}
+
+static bool open_all(struct gm_user_model *model, struct gm_user_system *system, bool whole)
+{
+    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
+    return gm_arena_run(system->arena, open_model, &(struct opening){model, system, NULL, whole});
+}
+
+bool gm_user_model_open_smooth(struct gm_user_model *model, struct gm_user_system *system)
+{
+    return open_all(model, system, false);
 }
 
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system)
 {
-    *model = (struct gm_user_model){.system = system, .components = system->n + system->timed};
-    return gm_arena_run(system->arena, open_model, &(struct opening){.model = model, .system = system});
+    return open_all(model, system, true);
 }
 
 void gm_user_system_again(struct gm_arena *arena, const struct gm_user_system *system, const double *values,

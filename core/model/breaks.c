@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A switch at g, of sign s, is frozen with
+       sign(x) = s    abs(x) = s x    heaviside(x) = 1 - [s < 0]    [a < b] = [s < 0], g = a - b
+       min(a, b) = [a < b] a + (1 - [a < b]) b
+   and one at the whole numbers, with k the one below x, by
+       floor(x) = k    ceil(x) = k + 1    mod(a, b) = mod(a, b) + b (floor(a/b) - k), x = a/b
+   which are the same bits where g has that sign and x that whole number. */
+#include "core/model/breaks.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/basics.h"
+#include "core/model/facts.h"
+
+static bool can_be_located(const struct gm_user_system *system)
+{
+    bool free = true;
+    for (size_t i = 0; i < system->velocities; i++) {
+        free = free && strcmp(system->variables[i].name, GM_BREAKS_KEY) != 0;
+    }
+    return free &&
+           (system->kind == GM_CANONICAL || system->kind == GM_RATES) &&
+           !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) &&
+           system->choices.count < GM_MOST_CHOICES;
+}
+
+void gm_breaks_declare(struct gm_user_system *system)
+{
+    static const char *const words[] = {"located", "ignored"};
+    const size_t switches = can_be_located(system) ? gm_facts_switches(system) : 0;
+    if (switches == 0 || switches > GM_MOST_BREAKS || gm_choice_named(&system->choices, GM_BREAKS_KEY)) {
+        return;
+    }
+    struct gm_written_choice *choice = &system->choices.list[system->choices.count++];
+    *choice = (struct gm_written_choice){
+        .name = GM_BREAKS_KEY, .count = GM_COUNT(words), .chosen = system->ignores_breaks};
+    for (size_t i = 0; i < GM_COUNT(words); i++) {
+        snprintf(choice->words[i], sizeof choice->words[i], "%s", words[i]);
+    }
+}
+
+bool gm_breaks_are_located(const struct gm_user_system *system)
+{
+    const struct gm_written_choice *choice = gm_choice_named(&system->choices, GM_BREAKS_KEY);
+    return choice && strcmp(choice->words[choice->chosen], "located") == 0;
+}
+
+static gm_node_id applied(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    return gm_formula_apply(graph, operation, a, b);
+}
+
+/* The variable that freezes a switch, new if it is not known; GM_NO_NODE: it is not frozen. */
+static gm_node_id frozen_at(struct gm_freezing *freezing, gm_node_id surface, gm_node_id whole)
+{
+    struct gm_formula *graph = &freezing->system->graph;
+    for (size_t i = 0; i < freezing->count; i++) {
+        if (freezing->list[i].surface == surface) {
+            return gm_formula_variable(graph, freezing->list[i].variable);
+        }
+    }
+    freezing->full |= !freezing->closed && freezing->count == GM_MOST_BREAKS;
+    if (freezing->closed || freezing->full) {
+        return GM_NO_NODE;
+    }
+    struct gm_break *new = &freezing->list[freezing->count++];
+    *new = (struct gm_break){surface, whole, freezing->system->variable_count++};
+    return gm_formula_variable(graph, new->variable);
+}
+
+/* [a < b] */
+static gm_node_id frozen_below(struct gm_freezing *freezing, gm_node_id a, gm_node_id b)
+{
+    struct gm_formula *graph = &freezing->system->graph;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    const bool turned = a == zero || (b != zero && b < a);
+    const gm_node_id low = turned ? b : a, high = turned ? a : b,
+                     sign = frozen_at(freezing,
+                                      high == zero ? low : applied(graph, GM_OPERATION_SUBTRACT, low, high),
+                                      GM_NO_NODE);
+    return sign == GM_NO_NODE ? sign
+                              : applied(graph, GM_OPERATION_BELOW, turned ? zero : sign, turned ? sign : zero);
+}
+
+/* c a + (1 - c) b */
+static gm_node_id chosen(struct gm_formula *graph, gm_node_id c, gm_node_id a, gm_node_id b)
+{
+    const gm_node_id other = applied(graph, GM_OPERATION_SUBTRACT, gm_formula_constant(graph, 1), c);
+    return applied(graph, GM_OPERATION_ADD, applied(graph, GM_OPERATION_CHOSEN, c, a),
+                   applied(graph, GM_OPERATION_CHOSEN, other, b));
+}
+
+/* The whole number below x. */
+static gm_node_id frozen_whole(struct gm_freezing *freezing, gm_node_id x)
+{
+    struct gm_formula *graph = &freezing->system->graph;
+    const gm_node_id pi = gm_formula_constant(graph, 3.14159265358979323846);
+    return frozen_at(freezing,
+                     applied(graph, GM_OPERATION_SIN, applied(graph, GM_OPERATION_MULTIPLY, pi, x), 0), x);
+}
+
+/* gm_rewriter */
+static gm_node_id frozen(struct gm_formula *graph, gm_node_id node, gm_node_id a, gm_node_id b,
+                         const void *data)
+{
+    struct gm_freezing *freezing = *(struct gm_freezing *const *)data;
+    const struct gm_node here = graph->nodes[node];
+    if (here.operation <= GM_VARIABLE || gm_operation_rows[here.operation].smooth ||
+        (node < freezing->node_count && !freezing->varying[node])) {
+        return GM_NO_NODE;
+    }
+    const gm_node_id one = gm_formula_constant(graph, 1), other = gm_second_operand(&here);
+    gm_node_id held = GM_NO_NODE, whole;
+    switch (here.operation) {
+    case GM_OPERATION_SIGN:
+    case GM_OPERATION_ABS:
+        held = frozen_at(freezing, here.a, GM_NO_NODE);
+        return held == GM_NO_NODE || here.operation == GM_OPERATION_SIGN
+                   ? held
+                   : applied(graph, GM_OPERATION_MULTIPLY, held, a);
+    case GM_OPERATION_HEAVISIDE:
+        held = frozen_below(freezing, here.a, gm_formula_constant(graph, 0));
+        return held == GM_NO_NODE ? held : applied(graph, GM_OPERATION_SUBTRACT, one, held);
+    case GM_OPERATION_BELOW:
+        return frozen_below(freezing, here.a, here.b);
+    case GM_OPERATION_MIN:
+        held = frozen_below(freezing, here.a, here.b);
+        return held == GM_NO_NODE ? held : chosen(graph, held, a, b);
+    case GM_OPERATION_MAX:
+        held = frozen_below(freezing, here.b, here.a);
+        return held == GM_NO_NODE ? held : chosen(graph, held, a, b);
+    case GM_OPERATION_MOD:
+        held = frozen_whole(freezing, applied(graph, GM_OPERATION_DIVIDE, here.a, other));
+        if (held != GM_NO_NODE) {
+            const gm_node_id rest = applied(graph, GM_OPERATION_MOD, a, b);
+            whole = applied(graph, GM_OPERATION_DIVIDE, applied(graph, GM_OPERATION_SUBTRACT, a, rest), b);
+            whole = applied(graph, GM_OPERATION_ADD, whole, gm_formula_constant(graph, 0.5));
+            whole = applied(graph, GM_OPERATION_FLOOR, whole, 0);
+            whole = applied(graph, GM_OPERATION_SUBTRACT, whole, held);
+            held = applied(graph, GM_OPERATION_ADD, rest, applied(graph, GM_OPERATION_MULTIPLY, b, whole));
+        }
+        return held;
+    default: /* floor and ceil */
+        held = frozen_whole(freezing, here.a);
+        return held == GM_NO_NODE || here.operation == GM_OPERATION_FLOOR
+                   ? held
+                   : applied(graph, GM_OPERATION_ADD, held, one);
+    }
+}
+
+void gm_breaks_freeze(struct gm_arena *arena, struct gm_freezing *freezing, gm_node_id *nodes, size_t count)
+{
+    struct gm_formula *graph = &freezing->system->graph;
+    gm_node_id *given = gm_arena_take(arena, count + 1, sizeof *given);
+    size_t known = 0;
+    for (size_t i = 0; i < count; i++) {
+        given[known] = nodes[i];
+        known += nodes[i] != GM_NO_NODE;
+    }
+    gm_arena_need(arena, gm_formula_rewrite(graph, given, known, frozen, &freezing));
+    for (size_t i = 0, k = 0; i < count; i++) {
+        nodes[i] = nodes[i] != GM_NO_NODE ? given[k++] : nodes[i];
+    }
+}

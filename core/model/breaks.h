@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Switches of a system: operations whose value or first derivative jumps where a function g passes 0. Between the jumps
+   the formulas are smooth, and each is followed beyond its switch if the switch is frozen there. */
+#ifndef GM_CORE_MODEL_BREAKS_H
+#define GM_CORE_MODEL_BREAKS_H
+
+#include "core/model/system.h"
+
+enum { GM_MOST_BREAKS = 64 };
+/* The key whose words are located and ignored. */
+#define GM_BREAKS_KEY "breaks"
+
+/* A switch, frozen by the value of a variable: the sign of g, -1, 0 or 1; or of floor, ceil and mod the whole number
+   below x, where g = sin(pi x). */
+struct gm_break {
+    gm_node_id surface, whole; /* g; x, GM_NO_NODE for a sign */
+    size_t variable;
+};
+
+/* Adds the key to a system with switches that can be located: it has coordinates, or components with rates, no
+   constraint, and at most GM_MOST_BREAKS switches. */
+void gm_breaks_declare(struct gm_user_system *system);
+/* Returns true if the key's word is located. */
+bool gm_breaks_are_located(const struct gm_user_system *system);
+
+/* Nodes in which switches are frozen, with the switches that were found. */
+struct gm_freezing {
+    struct gm_user_system *system;
+    struct gm_break *list; /* [GM_MOST_BREAKS] */
+    size_t count;
+    bool closed; /* no further switch is frozen */
+    bool full;   /* there are more */
+    const bool *varying; /* of gm_formula_dependent, over the components, the time and velocities */
+    size_t node_count;   /* its length */
+};
+/* Rewrites nodes in place; GM_NO_NODE stays. Leaves the arena's body when out of memory. */
+void gm_breaks_freeze(struct gm_arena *arena, struct gm_freezing *freezing, gm_node_id *nodes, size_t count);
+
+#endif
