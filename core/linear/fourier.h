@@ -19,7 +19,7 @@ void gm_fourier_inverse(struct gm_fourier *fourier, double _Complex *x);
 /* Real fields on a ring as sums of waves: [field * points + node] and [field * points + mode]. */
 struct gm_modes {
     size_t points, fields;
-    struct gm_fourier *fourier;
+    struct gm_real_fourier *fourier;
 };
 
 /* Returns false when out of memory; the caller closes it in both cases. */
@@ -32,9 +32,9 @@ static inline size_t gm_modes_half(size_t points)
     return points / 2 + 1;
 }
 
-/* sum_j y_j exp(-2 pi i j k / points) of every field */
+/* sum_j y_j exp(-2 pi i j k / points) of every field, for the modes 0 .. points / 2; the others are not written */
 void gm_modes_forward(const struct gm_modes *modes, const double *y, double _Complex *waves);
-/* The inverse of gm_modes_forward, from modes 0 .. points / 2; the waves are destroyed. */
-void gm_modes_back(const struct gm_modes *modes, double _Complex *waves, double *y);
+/* The inverse of gm_modes_forward, from modes 0 .. points / 2. */
+void gm_modes_back(const struct gm_modes *modes, const double _Complex *waves, double *y);
 
 #endif

@@ -6,6 +6,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -122,33 +124,103 @@ static void rings_are_solved(void **unused)
     }
 }
 
-/* Transforms against their sums; lengths with small factors alone, and primes. */
+/* The sum in long double of the numbers x_j exp(-2 pi i j k / n). */
+static long double complex defining_sum(const double complex *x, size_t n, size_t k)
+{
+    long double complex sum = 0;
+    for (size_t j = 0; j < n; j++) {
+        const long double angle =
+            2 * 3.14159265358979323846264338327950288L * (long double)(j * k % n) / (long double)n;
+        sum += x[j] * (cosl(angle) - I * sinl(angle));
+    }
+    return sum;
+}
+
+/* Transforms of n complex and of n real numbers: their sums, the way back, Parseval's theorem. */
+static void transforms_of_length(size_t n)
+{
+    double complex *x = calloc(3 * n, sizeof *x), *y = x + n, *waves = y + n;
+    double *real = calloc(2 * n, sizeof *real), *back = real + n;
+    const double limit = 1e-15 * (2 + log2((double)n));
+    double square = 0, squares = 0, real_square = 0, real_squares = 0;
+    for (size_t j = 0; j < n; j++) {
+        x[j] = y[j] = sin(1 + 3.7 * (double)j) + I * cos(0.3 * (double)(j * j));
+        real[j] = creal(x[j]);
+        square += creal(x[j] * conj(x[j]));
+        real_square += real[j] * real[j];
+    }
+    struct gm_fourier *fourier = gm_fourier_open(n);
+    struct gm_modes modes;
+    assert_true(fourier && gm_modes_open(&modes, n, 1));
+    gm_fourier_forward(fourier, y);
+    gm_modes_forward(&modes, real, waves);
+    for (size_t k = 0; k < n; k++) {
+        const double twice = k > 0 && 2 * k != n ? 2 : 1;
+        squares += creal(y[k] * conj(y[k])) / (double)n;
+        real_squares += k <= n / 2 ? twice * creal(waves[k] * conj(waves[k])) / (double)n : 0;
+    }
+    assert_true(fabs(squares - square) <= limit * square &&
+                fabs(real_squares - real_square) <= limit * real_square);
+    for (size_t k = 0; k < n; k += 1 + n / 70) {
+        assert_true(cabs(y[k] - (double complex)defining_sum(x, n, k)) <= limit * sqrt((double)n * square));
+        const size_t other = (n - k) % n; /* of the real part: (X_k + conj X_(n-k))/2 */
+        const double complex half = (defining_sum(x, n, k) + conjl(defining_sum(x, n, other))) / 2;
+        assert_true(k > n / 2 || cabs(waves[k] - half) <= limit * sqrt((double)n * square));
+    }
+    gm_fourier_inverse(fourier, y);
+    gm_modes_back(&modes, waves, back);
+    for (size_t j = 0; j < n; j++) {
+        assert_true(cabs(y[j] - x[j]) <= 4 * limit && fabs(back[j] - real[j]) <= 4 * limit);
+    }
+    gm_fourier_close(fourier);
+    gm_modes_close(&modes);
+    free(x);
+    free(real);
+}
+
 static void transforms_of_any_length(void **unused)
 {
     (void)unused;
-    static const size_t sizes[] = {1, 2, 3, 64, 101, 300, 809};
+    for (size_t n = 1; n <= 64; n++) {
+        transforms_of_length(n);
+    }
+    static const size_t sizes[] = {97, 101, 300, 809, 1001, 1024, 2 * 809, 10007};
     for (size_t s = 0; s < GM_COUNT(sizes); s++) {
-        const size_t n = sizes[s];
-        double complex x[809], y[809];
-        for (size_t j = 0; j < n; j++) {
-            x[j] = y[j] = sin(1 + 3.7 * (double)j) + I * cos(0.3 * (double)(j * j));
-        }
-        struct gm_fourier *fourier = gm_fourier_open(n);
-        gm_fourier_forward(fourier, y);
-        for (size_t k = 0; k < n; k += 1 + n / 20) {
-            double complex sum = 0;
-            for (size_t j = 0; j < n; j++) {
-                sum += x[j] * cexp(-2 * M_PI * I * (double)(j * k % n) / (double)n);
-            }
-            assert_true(cabs(y[k] - sum) < 1e-12 * (double)n);
-        }
-        gm_fourier_inverse(fourier, y);
-        for (size_t j = 0; j < n; j++) {
-            assert_true(cabs(y[j] - x[j]) < 1e-12);
-        }
-        gm_fourier_close(fourier);
+        transforms_of_length(sizes[s]);
     }
 }
+
+/* FNV-1a of the bits of transforms, found with the loops of each instruction set: equal on every processor. */
+static void transforms_have_the_same_bits(void **unused)
+{
+    (void)unused;
+    enum { MOST = 1024 };
+    static const size_t sizes[] = {61, 97, 1001, MOST};
+    uint64_t hash = 0xcbf29ce484222325;
+    for (size_t s = 0; s < GM_COUNT(sizes); s++) {
+        double real[MOST];
+        double complex waves[MOST] = {0};
+        struct gm_modes modes;
+        assert_true(gm_modes_open(&modes, sizes[s], 1));
+        for (size_t j = 0; j < sizes[s]; j++) {
+            real[j] = (double)(j * j % 37) / 37 - 0.5;
+        }
+        gm_modes_forward(&modes, real, waves);
+        gm_modes_back(&modes, waves, real);
+        gm_modes_close(&modes);
+        for (size_t k = 0; k < sizes[s]; k++) {
+            const double numbers[] = {creal(waves[k]), cimag(waves[k]), real[k]};
+            for (size_t i = 0; i < 3; i++) {
+                uint64_t bits;
+                const double number = numbers[i] + 0; /* -0 is 0 */
+                memcpy(&bits, &number, sizeof bits);
+                hash = (hash ^ bits) * 0x100000001b3;
+            }
+        }
+    }
+    assert_true(hash == 0xf89e0e4cc9b74744);
+}
+
 /* f_{i-1}/2 + f_i + f_{i+1}/2, whose root is 1 in magnitude: on an odd number of points it is solved; on an
    even one the alternating part has no solution, and nothing is written beside b. */
 static void a_root_on_the_unit_circle(void **unused)
@@ -186,6 +258,7 @@ int main(void)
         cmocka_unit_test(rings_are_solved),
         cmocka_unit_test(a_root_on_the_unit_circle),
         cmocka_unit_test(transforms_of_any_length),
+        cmocka_unit_test(transforms_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

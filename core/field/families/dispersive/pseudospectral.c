@@ -16,108 +16,133 @@
 #include "core/field/problems/problems.h"
 #include "core/linear/fourier.h"
 
+/* Complex numbers are pairs of doubles, one of each wave 0 .. points / 2. */
 struct work {
     size_t points;
-    struct gm_fourier *fourier;
-    /* arrays of `points` numbers, one per mode */
-    double complex *modes, *turn, *square, *stage, *rate[4];
-    double *number; /* k; 0 for the mode that alternates */
-    double *level[2];
+    struct gm_modes modes;
+    double *u, *stage, *sum, *rate[4];   /* waves */
+    double *turn;                        /* e */
+    double *number;                      /* k; 0 for the mode that alternates */
+    double *level[2], *nodes, *products; /* points of each */
 };
 
 static void workspace_close(void *workspace)
 {
-    gm_fourier_close(((struct work *)workspace)->fourier);
+    gm_modes_close(&((struct work *)workspace)->modes);
     free(workspace);
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    enum { COMPLEX = 8, REAL = 3 };
-    const size_t points = problem->line.points;
-    struct work *work =
-        calloc(1, sizeof *work + points * (COMPLEX * sizeof(double complex) + REAL * sizeof(double)));
-    struct gm_fourier *fourier = work ? gm_fourier_open(points) : NULL;
-    if (!fourier) {
-        free(work);
+    enum { ARRAYS = 13 };
+    const size_t points = problem->line.points, size = 2 * gm_modes_half(points);
+    struct work *work = calloc(1, sizeof *work + ARRAYS * size * sizeof(double));
+    if (!work) {
         return NULL;
     }
-    double complex *next = (double complex *)(void *)(work + 1);
-    double complex **const arrays[] = {&work->modes,   &work->turn,    &work->square,  &work->stage,
-                                       &work->rate[0], &work->rate[1], &work->rate[2], &work->rate[3]};
-    for (size_t i = 0; i < COMPLEX; i++, next += points) {
+    double *next = (double *)(work + 1);
+    double **const arrays[ARRAYS] = {&work->u,       &work->stage,    &work->rate[0],  &work->rate[1],
+                                     &work->rate[2], &work->rate[3],  &work->turn,     &work->sum,
+                                     &work->number,  &work->level[0], &work->level[1], &work->nodes,
+                                     &work->products};
+    for (size_t i = 0; i < ARRAYS; i++, next += size) {
         *arrays[i] = next;
     }
     work->points = points;
-    work->fourier = fourier;
-    work->number = (double *)next;
-    work->level[0] = work->number + points;
-    work->level[1] = work->level[0] + points;
+    if (!gm_modes_open(&work->modes, points, 1)) {
+        free(work);
+        return NULL;
+    }
     return work;
 }
 
-/* N of the modes; they are left alone. */
-static void find_rate(struct work *work, double half_eta, const double complex *modes, double complex *rate)
+/* to := u^2 at the nodes */
+GM_CLONES static void square_nodes(const double *u, double *restrict to, size_t count)
 {
-    const size_t points = work->points;
-    memcpy(rate, modes, points * sizeof *rate);
-    gm_fourier_inverse(work->fourier, rate);
-    for (size_t i = 0; i < points; i++) {
-        rate[i] = creal(rate[i]) * creal(rate[i]);
+    for (size_t i = 0; i < count; i++) {
+        to[i] = u[i] * u[i];
     }
-    gm_fourier_forward(work->fourier, rate);
-    for (size_t k = 0; k < points; k++) {
-        const double factor = half_eta * work->number[k];
-        rate[k] = factor * cimag(rate[k]) - I * (factor * creal(rate[k]));
+}
+
+/* The derivative of the waves of u^2 times -eta/2. */
+GM_CLONES static void differentiate(double *restrict rate, const double *number, double half_eta,
+                                    size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        const double factor = half_eta * number[k], real = rate[2 * k];
+        rate[2 * k] = factor * rate[2 * k + 1];
+        rate[2 * k + 1] = -(factor * real);
+    }
+}
+
+/* N of the field at the nodes. */
+static void find_rate(struct work *work, double half_eta, const double *nodes, double *rate)
+{
+    square_nodes(nodes, work->products, work->points);
+    gm_modes_forward(&work->modes, work->products, (double complex *)(void *)rate);
+    differentiate(rate, work->number, half_eta, gm_modes_half(work->points));
+}
+
+static void find_stage_rate(struct work *work, double half_eta, double *rate)
+{
+    gm_modes_back(&work->modes, (double complex *)(void *)work->stage, work->nodes);
+    find_rate(work, half_eta, work->nodes, rate);
+}
+
+/* to := e (u + a rate) */
+GM_CLONES static void turn_sum(const double *e, const double *u, double a, const double *rate,
+                               double *restrict to, size_t count)
+{
+    for (size_t k = 0; k < 2 * count; k += 2) {
+        const double re = u[k] + a * rate[k], im = u[k + 1] + a * rate[k + 1];
+        to[k] = e[k] * re - e[k + 1] * im;
+        to[k + 1] = e[k] * im + e[k + 1] * re;
+    }
+}
+
+/* to := u + a rate */
+GM_CLONES static void add_multiple(const double *u, double a, const double *rate, double *restrict to,
+                                   size_t count)
+{
+    for (size_t k = 0; k < 2 * count; k++) {
+        to[k] = u[k] + a * rate[k];
     }
 }
 
 static void prepare(struct work *work, const struct gm_problem *problem, double dt)
 {
-    const size_t points = work->points;
-    const double period = problem->line.dx * (double)points, mu = gm_kdv_of(problem)->mu;
-    for (size_t k = 0; k < points; k++) {
-        const double number = k <= points / 2 ? (double)k : (double)k - (double)points;
-        work->number[k] = 2 * k == points ? 0 : 2 * M_PI / period * number;
+    const double period = problem->line.dx * (double)work->points, mu = gm_kdv_of(problem)->mu;
+    for (size_t k = 0; k < gm_modes_half(work->points); k++) {
+        work->number[k] = 2 * k == work->points ? 0 : 2 * M_PI / period * (double)k;
         const double angle = mu * work->number[k] * work->number[k] * work->number[k] * dt / 2;
-        work->turn[k] = cos(angle) + I * sin(angle);
-        work->square[k] = cos(2 * angle) + I * sin(2 * angle);
+        work->turn[2 * k] = cos(angle);
+        work->turn[2 * k + 1] = sin(angle);
     }
 }
 
+/* The sums are factored: e^2 u + dt e c = e (e u + dt c). */
 static void step(struct work *work, const struct gm_problem *problem, double dt, const double *now,
                  double *next)
 {
-    const size_t points = work->points;
+    const size_t count = gm_modes_half(work->points);
     const double half_eta = gm_kdv_of(problem)->eta / 2;
-    double complex *u = work->modes, *stage = work->stage, *const *rate = work->rate;
-    const double complex *e = work->turn, *e2 = work->square;
-    for (size_t i = 0; i < points; i++) {
-        u[i] = now[i];
-    }
-    gm_fourier_forward(work->fourier, u);
-    find_rate(work, half_eta, u, rate[0]);
-    for (size_t k = 0; k < points; k++) {
-        stage[k] = e[k] * (u[k] + dt / 2 * rate[0][k]);
-    }
-    find_rate(work, half_eta, stage, rate[1]);
-    for (size_t k = 0; k < points; k++) {
-        stage[k] = e[k] * u[k] + dt / 2 * rate[1][k];
-    }
-    find_rate(work, half_eta, stage, rate[2]);
-    for (size_t k = 0; k < points; k++) {
-        stage[k] = e2[k] * u[k] + dt * e[k] * rate[2][k];
-    }
-    find_rate(work, half_eta, stage, rate[3]);
-    for (size_t k = 0; k < points; k++) {
-        u[k] =
-            e2[k] * u[k] + dt / 6 * (e2[k] * rate[0][k] + 2 * e[k] * (rate[1][k] + rate[2][k]) + rate[3][k]);
-    }
-    gm_fourier_inverse(work->fourier, u);
-    for (size_t i = 0; i < points; i++) {
-        next[i] = creal(u[i]);
-    }
+    const double *e = work->turn, *u = work->u;
+    double *stage = work->stage, *sum = work->sum, *const *rate = work->rate;
+    gm_modes_forward(&work->modes, now, (double complex *)(void *)work->u);
+    find_rate(work, half_eta, now, rate[0]);
+    turn_sum(e, u, dt / 2, rate[0], stage, count);
+    find_stage_rate(work, half_eta, rate[1]);
+    turn_sum(e, u, 0, u, sum, count);
+    add_multiple(sum, dt / 2, rate[1], stage, count);
+    find_stage_rate(work, half_eta, rate[2]);
+    turn_sum(e, sum, dt, rate[2], stage, count);
+    find_stage_rate(work, half_eta, rate[3]);
+    turn_sum(e, u, dt / 6, rate[0], stage, count);
+    add_multiple(stage, dt / 3, rate[1], sum, count);
+    turn_sum(e, sum, dt / 3, rate[2], stage, count);
+    add_multiple(stage, dt / 6, rate[3], sum, count);
+    gm_modes_back(&work->modes, (double complex *)(void *)sum, next);
 }
 
 static struct gm_progress advance(const struct gm_task *task)
