@@ -13,6 +13,8 @@
 
 #include <gsl/gsl_fft_complex.h>
 
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/memory.h"
 
 /* Factors of GSL's above this cost more than the chirp. */
@@ -39,9 +41,47 @@ static size_t largest_factor(size_t count)
     return count > largest ? count : largest;
 }
 
-static void transform(double complex *x, size_t length)
+/* Fills in the numbers of a table again, exp(-2 pi i m / n) in GSL's order: GSL's are the C
+   library's, whose bits depend on the processor. */
+static void put_turns(gsl_fft_complex_wavetable *table)
 {
-    gsl_fft_complex_radix2_forward((double *)x, 1, length);
+    size_t product = 1;
+    gsl_complex *turn = table->trig;
+    for (size_t f = 0; f < table->nf; f++) {
+        const size_t before = product;
+        product *= table->factor[f];
+        for (size_t j = 1; j < table->factor[f]; j++) {
+            for (size_t k = 1; k <= table->n / product; k++) {
+                const double angle = -2 * M_PI / (double)table->n * (double)(j * k * before % table->n);
+                GSL_SET_COMPLEX(turn, gm_cos(angle), gm_sin(angle));
+                turn++;
+            }
+        }
+    }
+}
+
+/* The tables of a length, with memory of GSL's. */
+static bool make_tables(void *data)
+{
+    struct gm_fourier *fourier = data;
+    const size_t length = fourier->length > 0 ? fourier->length : fourier->count;
+    fourier->table = gsl_fft_complex_wavetable_alloc(length);
+    fourier->space = gsl_fft_complex_workspace_alloc(length);
+    return fourier->table && fourier->space;
+}
+
+static bool open_tables(struct gm_fourier *fourier)
+{
+    if (!gm_memory_guard_gsl(make_tables, fourier)) {
+        return false;
+    }
+    put_turns(fourier->table);
+    return true;
+}
+
+static void transform(struct gm_fourier *fourier, double complex *x)
+{
+    gsl_fft_complex_forward((double *)x, 1, fourier->length, fourier->table, fourier->space);
 }
 
 static struct gm_fourier *open_chirp(struct gm_fourier *fourier)
@@ -53,7 +93,7 @@ static struct gm_fourier *open_chirp(struct gm_fourier *fourier)
     }
     fourier->length = length;
     fourier->chirp = calloc(count + 2 * length, sizeof *fourier->chirp);
-    if (!fourier->chirp) {
+    if (!fourier->chirp || !open_tables(fourier)) {
         gm_fourier_close(fourier);
         return NULL;
     }
@@ -62,20 +102,12 @@ static struct gm_fourier *open_chirp(struct gm_fourier *fourier)
     for (size_t j = 0; j < count; j++) {
         /* the square in its period, so that no digit of the angle is lost */
         const uint64_t square = (uint64_t)j * j % (2 * (uint64_t)count);
-        fourier->chirp[j] = cexp(-I * (M_PI * (double)square / (double)count));
+        fourier->chirp[j] = gm_cexp(-I * (M_PI * (double)square / (double)count));
         fourier->kernel[j] = conj(fourier->chirp[j]);
         fourier->kernel[j ? length - j : 0] = fourier->kernel[j];
     }
-    transform(fourier->kernel, length);
+    transform(fourier, fourier->kernel);
     return fourier;
-}
-
-static bool make_tables(void *data)
-{
-    struct gm_fourier *fourier = data;
-    fourier->table = gsl_fft_complex_wavetable_alloc(fourier->count);
-    fourier->space = gsl_fft_complex_workspace_alloc(fourier->count);
-    return fourier->table && fourier->space;
 }
 
 struct gm_fourier *gm_fourier_open(size_t count)
@@ -88,7 +120,7 @@ struct gm_fourier *gm_fourier_open(size_t count)
     if (largest_factor(count) > LARGEST_FACTOR) {
         return open_chirp(fourier);
     }
-    if (!gm_memory_guard_gsl(make_tables, fourier)) {
+    if (!open_tables(fourier)) {
         gm_fourier_close(fourier);
         return NULL;
     }
@@ -118,12 +150,12 @@ void gm_fourier_forward(struct gm_fourier *fourier, double complex *x)
     for (size_t j = 0; j < length; j++) {
         y[j] = j < count ? x[j] * fourier->chirp[j] : 0;
     }
-    transform(y, length);
+    transform(fourier, y);
     /* back by the conjugate of the transform of the conjugate */
     for (size_t j = 0; j < length; j++) {
         y[j] = conj(y[j] * fourier->kernel[j]);
     }
-    transform(y, length);
+    transform(fourier, y);
     for (size_t k = 0; k < count; k++) {
         x[k] = conj(y[k]) / (double)length * fourier->chirp[k];
     }

@@ -8,7 +8,8 @@
 #include <math.h>
 
 #include "core/field/problems/problems.h"
-#include "core/linear/sine.h"
+#include "core/functions/functions.h"
+#include "core/functions/rows.h"
 
 static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
 static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
@@ -17,44 +18,44 @@ const struct gm_form gm_form_of_waves = {.dimension = 3, .m = m, .k = k};
 /* sin x / x and its derivative; series where the quotient would cancel */
 static double sinc(double x)
 {
-    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : gm_sin(x) / x;
 }
 
 static double sinc_slope(double x)
 {
-    return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (cos(x) - sin(x) / x) / x;
+    return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (gm_cos(x) - gm_sin(x) / x) / x;
 }
 
 static double potential(const struct gm_problem *problem, double u)
 {
     (void)problem;
-    return 1 - cos(u);
+    return 1 - gm_cos(u);
 }
 
 static double curvature(const struct gm_problem *problem, double u)
 {
     (void)problem;
-    return cos(u);
+    return gm_cos(u);
 }
 
 static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
 {
     (void)problem;
-    gm_sines(u, slope, count);
+    gm_function_rows()->sin(slope, u, false, u, false, count);
 }
 
 /* -(cos a - cos b) / (a - b) */
 static double quotient(const struct gm_problem *problem, double a, double b)
 {
     (void)problem;
-    return sin((a + b) / 2) * sinc((a - b) / 2);
+    return gm_sin((a + b) / 2) * sinc((a - b) / 2);
 }
 
 static double quotient_slope(const struct gm_problem *problem, double a, double b)
 {
     (void)problem;
     const double mean = (a + b) / 2, half = (a - b) / 2;
-    return (cos(mean) * sinc(half) + sin(mean) * sinc_slope(half)) / 2;
+    return (gm_cos(mean) * sinc(half) + gm_sin(mean) * sinc_slope(half)) / 2;
 }
 
 static double none(const struct gm_problem *problem, double u)

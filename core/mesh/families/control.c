@@ -19,6 +19,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh_scheme_texts.h"
 
@@ -50,7 +51,7 @@ static struct layout layout_of(const struct gm_mesh_solver *solver)
 /* E of a mesh that is smoothed in time */
 static double friction(const struct gm_mesh *mesh)
 {
-    return 2 * mesh->length * mesh->relax / pow((double)mesh->points + 1, 3);
+    return 2 * mesh->length * mesh->relax / gm_pow((double)mesh->points + 1, 3);
 }
 
 static void guess(const struct gm_mesh_solver *solver, double *unknowns)

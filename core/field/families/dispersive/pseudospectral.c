@@ -14,6 +14,7 @@
 
 #include "core/field/families/family.h"
 #include "core/field/problems/problems.h"
+#include "core/functions/functions.h"
 #include "core/linear/fourier.h"
 
 struct work {
@@ -81,8 +82,8 @@ static void prepare(struct work *work, const struct gm_problem *problem, double 
         const double number = k <= points / 2 ? (double)k : (double)k - (double)points;
         work->number[k] = 2 * k == points ? 0 : 2 * M_PI / period * number;
         const double angle = mu * work->number[k] * work->number[k] * work->number[k] * dt / 2;
-        work->turn[k] = cos(angle) + I * sin(angle);
-        work->square[k] = cos(2 * angle) + I * sin(2 * angle);
+        work->turn[k] = gm_cos(angle) + I * gm_sin(angle);
+        work->square[k] = gm_cos(2 * angle) + I * gm_sin(2 * angle);
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/field/families/family.h"
 #include "core/field/problems/problems.h"
+#include "core/functions/functions.h"
 #include "core/linear/fourier.h"
 
 struct work {
@@ -50,7 +51,7 @@ static void nonlinear_half(double *psi, size_t points, double half)
 {
     for (size_t i = 0; i < points; i++) {
         const double angle = half * (psi[2 * i] * psi[2 * i] + psi[2 * i + 1] * psi[2 * i + 1]);
-        turn(psi + 2 * i, cos(angle), sin(angle));
+        turn(psi + 2 * i, gm_cos(angle), gm_sin(angle));
     }
 }
 
@@ -64,8 +65,8 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     for (size_t i = 0; i < points; i++) {
         const double k = 2 * M_PI / period * (i <= points / 2 ? (double)i : (double)i - (double)points);
-        work->turns[2 * i] = cos(k * k * task->dt);
-        work->turns[2 * i + 1] = -sin(k * k * task->dt);
+        work->turns[2 * i] = gm_cos(k * k * task->dt);
+        work->turns[2 * i + 1] = -gm_sin(k * k * task->dt);
         psi[2 * i] = task->y[i];
         psi[2 * i + 1] = task->y[points + i];
     }
