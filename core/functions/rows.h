@@ -11,6 +11,8 @@
 typedef void gm_function_row(double *to, const double *x, bool one_x, const double *y, bool one_y,
                              size_t count);
 struct gm_function_rows {
+    /* both of each x, with the bits of sin and cos */
+    void (*sine_and_cosine)(double *sine, double *cosine, const double *x, size_t count);
 #define GM_FUNCTION(name, arity) gm_function_row *name;
 #include "core/functions/functions.def"
 };

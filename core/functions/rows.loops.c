@@ -51,9 +51,19 @@ GM_INLINE void result(double *to, gm_lanes value, size_t left)
     }
 #include "core/functions/functions.def"
 
+static void sine_and_cosine(double *sine, double *cosine, const double *x, size_t count)
+{
+    for (size_t i = 0; i < count; i += GM_WIDTH) {
+        const gm_lanes angle = operand(x, false, i, count - i);
+        result(sine + i, K(sin)(angle), count - i);
+        result(cosine + i, K(cos)(angle), count - i);
+    }
+}
+
 #define GM_ROWS_NAME(isa) GM_ROWS_NAME_(isa)
 #define GM_ROWS_NAME_(isa) gm_function_rows_##isa
 const struct gm_function_rows GM_ROWS_NAME(GM_ISA) = {
+    .sine_and_cosine = sine_and_cosine,
 #define GM_FUNCTION(name, arity) .name = name##_row,
 #include "core/functions/functions.def"
 };
