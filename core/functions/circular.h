@@ -80,11 +80,6 @@ struct K(turned) {
 
 GM_INLINE struct K(turned) K(turned)(real x)
 {
-#ifdef GM_PASS_SCALAR
-    if (fabs(x) < 0x1.921fb5p-1) { /* what follows would find the same, later */
-        return (struct K(turned)){x, 0, x * x, 0};
-    }
-#endif
     const real q = (x * 0x1.45f306dc9c883p-1 + 0x1.8p52) - 0x1.8p52;
     /* 38 bits each: their products with |q| <= 2^15 are exact, and so is the first difference. The last part is
        below any r that a double leaves. */
@@ -124,13 +119,27 @@ GM_INLINE struct K(pair) K(cosine_of)(struct K(turned) t)
     return (struct K(pair)){w, ((1 - w) - half) + (zz * c - t.r * t.y)};
 }
 
-/* sin(x + quarters pi/2) */
+GM_INLINE real K(cosine)(struct K(turned) t)
+{
+    const struct K(pair) c = K(cosine_of)(t);
+    return c.hi + c.lo;
+}
+
+/* sin(x + quarters pi/2). Near 0 nothing is reduced, and there, as for one number, a single polynomial is enough: the
+   same bits sooner. */
 GM_INLINE real K(sine_after)(real x, uint64_t quarters)
 {
+    if (K(everywhere)(K(magnitude)(x) < 0x1.921fb5p-1)) {
+        const struct K(turned) near = {x, K(constant)(0), x * x, K(bits)(x)};
+        return quarters ? K(cosine)(near) : x - K(below_r)(near);
+    }
     const struct K(turned) t = K(turned)(x);
-    const struct K(pair) c = K(cosine_of)(t);
     const pattern n = t.quarter + quarters;
-    const real either = K(blend)(-(n & 1), c.hi + c.lo, t.r - K(below_r)(t));
+#ifdef GM_PASS_SCALAR
+    const real either = n & 1 ? K(cosine)(t) : t.r - K(below_r)(t);
+#else
+    const real either = K(blend)(-(n & 1), K(cosine)(t), t.r - K(below_r)(t));
+#endif
     return K(turned_by)(either, (n & 2) << 62);
 }
 

@@ -24,6 +24,7 @@ enum { GM_WIDTH = 2 };
 typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
 typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
 typedef uint64_t gm_lanes_pattern __attribute__((vector_size(GM_WIDTH * 8)));
+typedef double gm_four __attribute__((vector_size(32)));
 /* Lanes in the state, aligned like doubles. One instruction moves them: memcpy makes two halves of them, for
    which the register then has to wait. */
 typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
@@ -196,6 +197,25 @@ GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
 }
+/* The signs of lanes, one bit each: compilers take lanes out one by one for such a question. */
+GM_INLINE int K(signs)(gm_lanes_mask which)
+{
+#if defined(__AVX512F__)
+    const gm_four halves = (gm_four)__builtin_shufflevector(which, which, 0, 1, 2, 3),
+                  others = (gm_four)__builtin_shufflevector(which, which, 4, 5, 6, 7);
+    return __builtin_ia32_movmskpd256(halves) | __builtin_ia32_movmskpd256(others) << 4;
+#elif defined(__AVX2__)
+    return __builtin_ia32_movmskpd256((gm_lanes)which);
+#elif defined(__SSE2__)
+    return __builtin_ia32_movmskpd((gm_lanes)which);
+#else
+    int signs = 0;
+    for (int i = 0; i < GM_WIDTH; i++) {
+        signs |= (which[i] < 0) << i;
+    }
+    return signs;
+#endif
+}
 /* Combines, for K(somewhere_beyond), the magnitudes of all x so far: their bits are ordered like the numbers,
    NaN last. A comparison of numbers would use the registers of masks, where each waits for the last. With an
    instruction for it, the largest bits, which GCC makes of this loop alone; otherwise lanes that are negative
@@ -227,11 +247,7 @@ GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
 #else
     (void)limit; /* K(distance) has compared with it */
 #endif
-    int64_t any = 0;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        any |= farthest[i];
-    }
-    return any < 0;
+    return K(signs)(farthest) != 0;
 }
 GM_INLINE gm_lanes K(root)(gm_lanes x)
 {
@@ -254,19 +270,11 @@ GM_INLINE gm_lanes_pattern K(pick_bits)(gm_lanes_mask choose, gm_lanes_pattern b
 }
 GM_INLINE bool K(everywhere)(gm_lanes_mask which)
 {
-    int64_t all = -1;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        all &= which[i];
-    }
-    return all != 0;
+    return K(signs)(which) == (1 << GM_WIDTH) - 1;
 }
 GM_INLINE bool K(somewhere)(gm_lanes_mask which)
 {
-    int64_t any = 0;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        any |= which[i];
-    }
-    return any != 0;
+    return K(signs)(which) != 0;
 }
 GM_INLINE gm_lanes_mask K(all)(void)
 {
