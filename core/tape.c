@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/rows.h"
 
 enum {
     LARGEST_BATCH = 256, /* operations of a group: operands fit into the fastest cache */
@@ -977,6 +978,31 @@ static inline bool is_instruction(uint32_t operation)
     return operation <= GM_OPERATION_NEGATE || operation == GM_OPERATION_SQRT;
 }
 
+/* Returns true for what core/functions computes for rows. */
+static inline bool is_function(uint32_t operation)
+{
+    switch (operation) {
+#define GM_FORMULA_FUNCTION(constant, name, arity) case GM_OPERATION_##constant:
+#include "core/functions/functions.def"
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void compute_by_function(uint32_t operation, double *to, const double *x, bool one_x, const double *y,
+                                bool one_y, size_t count)
+{
+    const struct gm_function_rows *rows = gm_function_rows();
+    switch (operation) {
+#define GM_FORMULA_FUNCTION(constant, name, arity)                                                           \
+    case GM_OPERATION_##constant:                                                                            \
+        rows->name(to, x, one_x, y, one_y, count);                                                           \
+        break;
+#include "core/functions/functions.def"
+    }
+}
+
 /* Two functions, since one that calls others has to save registers, at every row; neither is inlined, where
    compilers would forget that rows do not overlap. */
 GM_CLONES static void compute_by_instruction(uint32_t operation, double *restrict to,
@@ -1007,7 +1033,7 @@ GM_CLONES static void compute_by_call(uint32_t operation, double *restrict to, c
     switch ((enum gm_operation)operation) {
 #define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
     case GM_OPERATION_##constant:                                                                            \
-        if (is_instruction(GM_OPERATION_##constant)) {                                                       \
+        if (is_instruction(GM_OPERATION_##constant) || is_function(GM_OPERATION_##constant)) {               \
             __builtin_unreachable();                                                                         \
         }                                                                                                    \
         GM_ROWS(value_)                                                                                      \
@@ -1026,6 +1052,8 @@ static inline void compute_row(uint32_t operation, double *to, const double *x, 
 {
     if (is_instruction(operation)) {
         compute_by_instruction(operation, to, x, one_x, y, one_y, count);
+    } else if (is_function(operation)) {
+        compute_by_function(operation, to, x, one_x, y, one_y, count);
     } else {
         compute_by_call(operation, to, x, one_x, y, one_y, count);
     }
@@ -1131,26 +1159,13 @@ GM_CLONES static void add_row(double *restrict to, const double *restrict term, 
     }
 }
 
-/* Computes the sine for every member; values far from 0 are left to libm. */
-static void sines_of(const struct gm_tape *tape, const double *x, double *sine, size_t count)
-{
-    tape->sines(x, sine, count);
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(x[i]) <= GM_SINES_TO)) {
-            sine[i] = sin(x[i]);
-        }
-    }
-}
-
 /* An operation for a block of members: at[register] is its row, or of a constant its one number. */
 static inline void compute_rows_of(const struct gm_tape *tape, const struct gm_instruction *now,
                                    double *const *at, size_t count)
 {
     const bool one_a = now->a - tape->inputs < tape->constant_count,
                one_b = now->b - tape->inputs < tape->constant_count;
-    if (now->operation == GM_OPERATION_SIN && tape->sines && !one_a) {
-        sines_of(tape, at[now->a], at[now->to], count);
-    } else if (now->a == now->to) {
+    if (now->a == now->to) {
         add_row(at[now->to], at[now->b], one_b, now->operation == GM_OPERATION_SUBTRACT, count);
     } else {
         compute_row(now->operation, at[now->to], at[now->a], one_a, at[now->b], one_b, count);
@@ -1216,8 +1231,7 @@ static void one_state(const struct gm_tape *tape, const double *inputs, size_t i
 void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
                    size_t outputs_apart, size_t m)
 {
-    if (tape->rolled &&
-        !tape->sines) { /* rows are as long as a block's; rows of members would leave the cache */
+    if (tape->rolled) { /* rows are as long as a block's; rows of members would leave the cache */
         for (size_t i = 0; i < m; i++) {
             one_state(tape, inputs + i, inputs_apart, outputs + i, outputs_apart);
         }
@@ -1262,7 +1276,7 @@ void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inpu
 
 void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m)
 {
-    if (m == 1 && !tape->sines) {
+    if (m == 1) {
         one_state(tape->rows ? tape->rows : tape, inputs, 1, outputs, 1);
     } else {
         gm_tape_block(tape, inputs, m, outputs, m, m);

@@ -36,8 +36,6 @@ struct gm_sums {
     uint32_t to, count, rows, at;
 };
 
-enum { GM_SINES_TO = 100000 };
-
 /* The registers: inputs, constants, outputs, and what lies between. It does not change while it is computed,
    so threads may share it. */
 struct gm_tape {
@@ -53,9 +51,6 @@ struct gm_tape {
     bool rolled;                  /* it has batches and sums */
     /* The tape for one state alone, if batches are faster there but not for blocks of members; else NULL. */
     struct gm_tape *rows;
-    /* A sine instead of libm's for |x| <= GM_SINES_TO, set after gm_tape_open if no other engine computes
-       the same; else NULL. */
-    void (*sines)(const double *x, double *sine, size_t count);
 };
 
 /* The code of `count` nodes. Variables 0 .. inputs - 1 are its inputs, every other one is the constant

@@ -24,8 +24,7 @@
 #include "render/message.h"
 
 /* The flags of the build for built-in problems: no operation is fused or exchanged. (The search for common
-   subexpressions would take a fifth of the time and find nothing.) Functions of formulas are always the
-   library's, except single instructions. */
+   subexpressions would take a fifth of the time and find nothing.) */
 static const char *const flags[] = {
     GM_NATIVE_FLAGS, "-D_GNU_SOURCE", "-DGM_PROBLEM=user", "-DGM_ISA=native", "-w", "-shared", "-fPIC"};
 static const char *const isa_flags[GM_ISA_COUNT][3] = {

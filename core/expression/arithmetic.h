@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
+
 /* x^n for whole |n| <= GM_MOST_CHAINED by one chain: x^n = (x^(n/2))^2, times x if n is odd; 1 / x^-n if n <
    0. */
 enum { GM_MOST_CHAINED = 16 };

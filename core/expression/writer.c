@@ -9,6 +9,7 @@
 
 #include "core/expression/number.h"
 #include "core/expression/reader.h"
+#include "core/functions/functions.h"
 
 /* The priorities of nodes, as in the reader's table. */
 enum { SUM = 10, PRODUCT = 11, SIGN = 12, RAISED = 14, WHOLE = 20 };
@@ -459,7 +460,7 @@ static bool multiply(struct tidying *tidying, struct product *product, gm_node_i
     }
     switch (here.operation) {
     case GM_CONSTANT:
-        *(halves > 0 ? &product->above : &product->below) *= pow(here.value, (double)labs(halves / 2));
+        *(halves > 0 ? &product->above : &product->below) *= gm_pow(here.value, (double)labs(halves / 2));
         return true;
     case GM_OPERATION_NEGATE:
         product->above *= halves / 2 % 2 ? -1 : 1;

@@ -54,9 +54,9 @@ struct gm_wave {
     double (*potential)(const struct gm_problem *problem, double u); /* V */
     double (*curvature)(const struct gm_problem *problem, double u); /* V'' */
     void (*slopes)(const struct gm_problem *problem, const double *u, double *slope, size_t count);
-    /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */
-    double (*quotient)(const struct gm_problem *problem, double a, double b);
-    double (*quotient_slope)(const struct gm_problem *problem, double a, double b);
+    /* [V(a) - V(b)] / (a - b), without cancellation, and if slope is not NULL its derivative in a */
+    void (*quotients)(const struct gm_problem *problem, const double *a, const double *b, double *quotient,
+                      double *slope, size_t count);
 };
 
 /* The box scheme of an equation of first order in time, after elimination:

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/linear/differences.h"
 
 /* a0' G b1 - b0' G a1 with the upper triangle of a skew matrix or the whole of it for G. With the triangle
@@ -203,6 +204,6 @@ double gm_form_residual(struct gm_law law)
 void gm_tangent_start(double *tangent, size_t points, double waves, double phase)
 {
     for (size_t i = 0; i < points; i++) {
-        tangent[i] = cos(2 * M_PI * waves * (double)i / (double)points + phase);
+        tangent[i] = gm_cos(2 * M_PI * waves * (double)i / (double)points + phase);
     }
 }

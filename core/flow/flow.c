@@ -2,6 +2,7 @@
 /* Flows: their memory, fluxes, vorticity and velocities, and the states that a run starts from. */
 #include "core/flow/flow.h"
 #include "core/arena.h"
+#include "core/functions/functions.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -178,7 +179,7 @@ double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi)
     for (size_t t = 0; t < flow->complex->triangles; t++) {
         double u[2];
         gm_flow_velocity(flow->complex, psi, t, u);
-        largest = fmax(largest, hypot(u[0], u[1]));
+        largest = fmax(largest, gm_hypot(u[0], u[1]));
     }
     return largest;
 }

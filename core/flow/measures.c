@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/flow/flow.h"
+#include "core/functions/functions.h"
 
 double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y)
 {
@@ -151,9 +152,9 @@ double gm_flow_heated(const struct gm_flow *flow)
         through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
     }
     const double size = sqrt(complex->total_area), conducted = most * size / flow->diffusivity,
-                 rayleigh = flow->buoyancy * most * pow(size, 4) /
+                 rayleigh = flow->buoyancy * most * gm_pow(size, 4) /
                             (flow->viscosity * flow->diffusivity * flow->diffusivity),
-                 convected = conducted / fmax(1, 0.4 * pow(fabs(rayleigh), 0.2));
+                 convected = conducted / fmax(1, 0.4 * gm_pow(fabs(rayleigh), 0.2));
     return through > 0 ? fmin(convected, 2 * sum / through) : convected;
 }
 
@@ -341,7 +342,7 @@ static bool fit(const struct samples *samples, const double at[2], double soluti
     for (size_t i = 0; i < rows; i++) {
         const struct near *near = &nearest[i];
         const double p = near->x / farthest, q = near->z / farthest;
-        const double weight = exp(-(p * p + q * q)); /* the square root, for the rows */
+        const double weight = gm_exp(-(p * p + q * q)); /* the square root, for the rows */
         const double terms[TERMS] = {1,     p,         q,         p * p,     p * q,
                                      q * q, p * p * p, p * p * q, p * q * q, q * q * q};
         for (size_t k = 0; k < TERMS; k++) {

@@ -3,6 +3,7 @@
 #include "core/flow/room.h"
 #include "core/basics.h"
 #include "core/expression/number.h"
+#include "core/functions/functions.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
 
@@ -1117,8 +1118,8 @@ static void give_motion(const struct profile *profiles, const unsigned char *sid
             const double *at = k == 0 ? p : q;
             flow->sheet[end[k]] += along / 2;
             flow->psi[end[k]] = value_at(profile, GM_ROOM_STREAM_FUNCTION, 0, 0, at);
-            flow->speed = fmax(flow->speed, hypot(value_at(profile, GM_ROOM_SPEED_X, 0, 0, at),
-                                                  value_at(profile, GM_ROOM_SPEED_Y, 0, 0, at)));
+            flow->speed = fmax(flow->speed, gm_hypot(value_at(profile, GM_ROOM_SPEED_X, 0, 0, at),
+                                                     value_at(profile, GM_ROOM_SPEED_Y, 0, 0, at)));
         }
     }
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 
 /* A dual edge shorter than this part of its edge counts as none: two right angles that face each other leave
@@ -441,7 +442,7 @@ static void measure(struct gm_complex *complex)
             share[k] = gm_dot(side, side) * dot / cross;
             sum += share[k];
             obtuse |= dot < 0;
-            const double angle = atan2(cross, dot) * 180 / M_PI;
+            const double angle = gm_atan2(cross, dot) * 180 / M_PI;
             complex->smallest_angle = fmin(complex->smallest_angle, angle);
             complex->largest_angle = fmax(complex->largest_angle, angle);
         }
@@ -469,7 +470,7 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
     while (complex->triangle_edge[3 * triangle + a] != e) {
         a++;
     }
-    return fabs(atan2(2 * complex->area[triangle], face(p, (a + 2) % 3, side))) * 180 / M_PI;
+    return fabs(gm_atan2(2 * complex->area[triangle], face(p, (a + 2) % 3, side))) * 180 / M_PI;
 }
 
 /* Returns true if dual edges and cells are positive; if not, the fault names the worst one. */

@@ -19,6 +19,7 @@
 
 #include "core/arena.h"
 #include "core/expression/residue.h"
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 
 /* The points and corners that are laid. */
@@ -98,7 +99,7 @@ static double wall_distance(double h, double a)
     double low = h, high = a;
     for (int i = 0; i < 100; i++) {
         const double c = (low + high) / 2;
-        const bool far = 2 * atan(h / c) < atan(h / (a - c));
+        const bool far = 2 * gm_atan(h / c) < gm_atan(h / (a - c));
         low = far ? low : c;
         high = far ? c : high;
     }
@@ -126,7 +127,7 @@ static void lay_rectangle(struct laying *laying)
     /* the far walls have their given places, which N a and M h miss by a rounding */
     const double length = r->transposed ? r->height : r->width, depth = r->transposed ? r->width : r->height;
     /* the bend from the other wall takes a little of c, which matters in short rows alone */
-    const double rest = n < 6 ? 1 / (1 - pow(decay, (double)(n - 1))) : 1;
+    const double rest = n < 6 ? 1 / (1 - gm_pow(decay, (double)(n - 1))) : 1;
     reserve(laying, (size_t)((m + 1) * (n + 1)), (size_t)(2 * n * m));
     for (long row = 0; row <= m; row++) {
         const double across = row == m ? depth : h * (double)row;
@@ -134,7 +135,7 @@ static void lay_rectangle(struct laying *laying)
             put_point(laying, k == n ? length : a * (double)k, across);
         }
         for (long k = 0; row % 2 == 1 && k < n; k++) {
-            const double bend = pow(decay, (double)k) - pow(decay, (double)(n - 1 - k));
+            const double bend = gm_pow(decay, (double)k) - gm_pow(decay, (double)(n - 1 - k));
             put_point(laying, ((double)k + 0.5) * a + (c - a / 2) * rest * bend, across);
         }
     }
@@ -187,7 +188,7 @@ static double random_in_unit(uint64_t *state)
 static bool is_fixed(const struct gm_rectangle *r, const double *p)
 {
     for (size_t i = 0; i < r->fixed_count; i++) {
-        if (hypot(p[0] - r->fixed[2 * i], p[1] - r->fixed[2 * i + 1]) < 1e-9 * (r->width + r->height)) {
+        if (gm_hypot(p[0] - r->fixed[2 * i], p[1] - r->fixed[2 * i + 1]) < 1e-9 * (r->width + r->height)) {
             return true;
         }
     }
@@ -207,7 +208,7 @@ static double largest_angle(const struct laying *laying, const double *points, s
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         const double ax = p[2 * i] - p[2 * k], ay = p[2 * i + 1] - p[2 * k + 1];
         const double bx = p[2 * j] - p[2 * k], by = p[2 * j + 1] - p[2 * k + 1];
-        largest = fmax(largest, atan2(fabs(ax * by - ay * bx), ax * bx + ay * by));
+        largest = fmax(largest, gm_atan2(fabs(ax * by - ay * bx), ax * bx + ay * by));
     }
     return largest * 180 / M_PI;
 }
@@ -235,8 +236,8 @@ static void jiggle(struct laying *laying, const struct gm_complex *regular)
         if ((side && floor_or_lid) || is_fixed(r, p)) {
             continue;
         }
-        shift[2 * v] = side ? 0 : far * cos(turn);
-        shift[2 * v + 1] = floor_or_lid ? 0 : far * sin(turn);
+        shift[2 * v] = side ? 0 : far * gm_cos(turn);
+        shift[2 * v + 1] = floor_or_lid ? 0 : far * gm_sin(turn);
     }
     bool bad = true;
     for (int round = 0; bad; round++) {
@@ -268,13 +269,13 @@ static void lay_circles(struct laying *laying)
     const long n = (long)laying->number[2], m = laying->rows, circles = m + !torus;
     reserve(laying, (size_t)(circles * n), (size_t)(2 * m * n));
     for (long j = 0; j < circles; j++) {
-        const double tube = 2 * M_PI * (double)j / (double)m, r = torus ? p + q * cos(tube)
-                                                                  : j < m
-                                                                      ? p * pow(q / p, (double)j / (double)m)
-                                                                      : q;
+        const double tube = 2 * M_PI * (double)j / (double)m,
+                     r = torus   ? p + q * gm_cos(tube)
+                         : j < m ? p * gm_pow(q / p, (double)j / (double)m)
+                                 : q;
         for (long i = 0; i < n; i++) {
             const double a = 2 * M_PI * ((double)i + (j % 2 ? 0.5 : 0)) / (double)n;
-            add_point(laying, r * cos(a), r * sin(a), torus ? q * sin(tube) : 0);
+            add_point(laying, r * gm_cos(a), r * gm_sin(a), torus ? q * gm_sin(tube) : 0);
         }
     }
     for (long j = 0; j < m; j++) {
@@ -298,7 +299,7 @@ static void lay_disc(struct laying *laying)
         for (long j = 0; j < 6 * k; j++) {
             const double r = laying->number[0] * (double)k / (double)n,
                          a = 2 * M_PI * (double)j / (double)(6 * k);
-            add_point(laying, r * cos(a), r * sin(a), 0);
+            add_point(laying, r * gm_cos(a), r * gm_sin(a), 0);
             /* sector s, the i-th edge of the ring in it */
             const long s = j / k, i = j % k, next = outer + (j + 1) % (6 * k);
             add_triangle(laying, inner + (s * (k - 1) + i) % within, outer + j, next);
@@ -444,7 +445,7 @@ static long rows_of(enum which which, const double *number, size_t count)
         return (long)number[generators[which].rows];
     }
     return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
-           : which == ANNULUS ? lround(n * log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2))
+           : which == ANNULUS ? lround(n * gm_log(number[1] / number[0]) / (2 * M_PI) / (sqrt(3) / 2))
                               : 2 * lround(n * number[1] / (sqrt(3) * number[0]));
 }
 
@@ -586,7 +587,7 @@ const char *const *gm_generator_parts(const char *word)
 bool gm_generator_on(const char *word, const double *number, const char *part, const double middle[3])
 {
     const enum which which = which_of(word);
-    const double radius = hypot(middle[0], middle[1]);
+    const double radius = gm_hypot(middle[0], middle[1]);
     const bool sides[] = {middle[0] == 0, middle[0] == number[0], middle[1] == 0, middle[1] == number[1]},
                circles[] = {radius<number[0] * 1.001, radius> number[0] * 1.001};
     const char *const *parts = gm_generator_parts(word);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/cholesky.h"
 #include "core/linear/vectors.h"
 
@@ -69,8 +70,8 @@ static void sample(const struct gm_form_values *values, size_t i, double t)
                 sum += points->weight[j] * found[j];
             }
             if (!points->weight && step->components == 1) { /* a density along the edge */
-                sum += found[j] * hypot(hypot(points->vector[j], points->vector[count + j]),
-                                        points->vector[2 * count + j]);
+                sum += found[j] * gm_hypot(gm_hypot(points->vector[j], points->vector[count + j]),
+                                           points->vector[2 * count + j]);
             }
             for (size_t c = 0; !points->weight && step->components > 1 && c < step->components; c++) {
                 sum += points->vector[c * count + j] * found[c * count + j];

@@ -15,8 +15,9 @@ enum { SIZE = GM_COMPLEX_LARGEST * GM_COMPLEX_LARGEST, TERMS = 20 };
 static const double factorials[GM_PHI_MOST] = {1, 1, 2, 6};
 
 #define ENTRY double complex
-#define MAGNITUDE cabs
+#define MAGNITUDE gm_cabs
 #define ELIMINATE eliminate_columns
+#include "core/functions/complex.h"
 #include "core/linear/eliminate.loop.h"
 
 bool gm_complex_eliminate(size_t n, double complex *a, double complex *r)
@@ -96,10 +97,10 @@ void gm_complex_phi(size_t n, const double complex *z, size_t count, double comp
 {
     double norm = 0;
     for (size_t i = 0; i < n * n; i++) {
-        norm += cabs(z[i]);
+        norm += gm_cabs(z[i]);
     }
     if (n == 1 && norm >= 1) {
-        phi[0] = cexp(z[0]);
+        phi[0] = gm_cexp(z[0]);
         for (size_t k = 1; k < count; k++) {
             phi[k] = (phi[k - 1] - 1 / factorials[k - 1]) / z[0];
         }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/functions/complex.h"
 #include "core/linear/fourier.h"
 
 /* The trapezoidal rule on p times the derivative of the trigonometric polynomial through q, by Parseval's theorem
@@ -28,7 +29,7 @@ bool gm_curve_add_action(const double *q, const double *p, size_t count, struct 
     double action = 0;
     for (size_t w = 1; 2 * w < count; w++) {
         const double complex share = waves[w] / (double)count * conj(waves[count + w]) / (double)count;
-        const double factor = 4 * M_PI * (double)w, size = factor * cabs(share);
+        const double factor = 4 * M_PI * (double)w, size = factor * gm_cabs(share);
         action -= factor * cimag(share);
         sum->waves += size;
         sum->short_waves += 4 * w >= count ? size : 0;

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 enum { M = GM_GMRES_BASIS };
 
 size_t gm_gmres_scratch(size_t n)
@@ -74,7 +76,7 @@ static double cycle(const struct gm_system *system, const double *r, double *x, 
             h[i][m] = c[i] * a + s[i] * b;
             h[i + 1][m] = c[i] * b - s[i] * a;
         }
-        const double radius = hypot(h[m][m], h[m + 1][m]);
+        const double radius = gm_hypot(h[m][m], h[m + 1][m]);
         if (!(radius > 0)) {
             break;
         }

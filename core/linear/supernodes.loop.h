@@ -69,11 +69,11 @@ GM_CLONES static void PASS(forward)(const struct supernodes *triangle, REAL *res
     }
 }
 
-static inline __attribute__((always_inline)) REAL PASS(sum)(PASS(lanes) lanes)
+static inline __attribute__((always_inline)) REAL PASS(sum)(const PASS(lanes) * lanes)
 {
     REAL sum = 0;
     for (size_t k = 0; k < LANES; k++) {
-        sum += lanes[k];
+        sum += (*lanes)[k];
     }
     return sum;
 }
@@ -123,11 +123,11 @@ GM_CLONES static void PASS(backward)(const struct supernodes *triangle, REAL *re
                 r += c[i] * t[i];
                 u += d[i] * t[i];
             }
-            t[j - 1] = (t[j - 1] - (u + PASS(sum)(wide[3]))) * (REAL)inverse[j - 1];
-            t[j - 2] = (t[j - 2] - (r + PASS(sum)(wide[2])) - c[j - 1] * t[j - 1]) * (REAL)inverse[j - 2];
-            t[j - 3] = (t[j - 3] - (q + PASS(sum)(wide[1])) - b[j - 1] * t[j - 1] - b[j - 2] * t[j - 2]) *
+            t[j - 1] = (t[j - 1] - (u + PASS(sum)(&wide[3]))) * (REAL)inverse[j - 1];
+            t[j - 2] = (t[j - 2] - (r + PASS(sum)(&wide[2])) - c[j - 1] * t[j - 1]) * (REAL)inverse[j - 2];
+            t[j - 3] = (t[j - 3] - (q + PASS(sum)(&wide[1])) - b[j - 1] * t[j - 1] - b[j - 2] * t[j - 2]) *
                        (REAL)inverse[j - 3];
-            t[j - 4] = (t[j - 4] - (p + PASS(sum)(wide[0])) - a[j - 1] * t[j - 1] - a[j - 2] * t[j - 2] -
+            t[j - 4] = (t[j - 4] - (p + PASS(sum)(&wide[0])) - a[j - 1] * t[j - 1] - a[j - 2] * t[j - 2] -
                         a[j - 3] * t[j - 3]) *
                        (REAL)inverse[j - 4];
         }

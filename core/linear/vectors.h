@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
+
 static inline double gm_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -30,7 +32,7 @@ static inline void gm_subtract(const double *b, const double *a, double *d)
 /* The length, also of a vector whose square is too large or too small. */
 static inline double gm_length(const double *a)
 {
-    return hypot(hypot(a[0], a[1]), a[2]);
+    return gm_hypot(gm_hypot(a[0], a[1]), a[2]);
 }
 
 #endif

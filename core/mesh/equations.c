@@ -27,6 +27,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/mesh/solver.h"
 
 struct gm_mesh_layout gm_mesh_layout_of(const struct gm_mesh_row *row, const struct gm_mesh *mesh)
@@ -53,7 +54,7 @@ struct gm_mesh_layout gm_mesh_layout_of(const struct gm_mesh_row *row, const str
 /* E of a mesh that is smoothed in time */
 static double friction(const struct gm_mesh *mesh)
 {
-    return 2 * mesh->length * mesh->relax / pow((double)mesh->points + 1, 3);
+    return 2 * mesh->length * mesh->relax / gm_pow((double)mesh->points + 1, 3);
 }
 
 void gm_step_place(struct gm_mesh_solver *solver, const double *state, double t, double h)

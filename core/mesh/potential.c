@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/mesh/moving_mesh.h"
 
 /* Sine-Gordon: the mean of cos over an element is cos(m) S(r / 2), S(h) = sin(h) / h, which has no 0/0 where
@@ -86,10 +87,10 @@ static void sine_gordon_first(const struct gm_potential *potential, const double
     for (size_t e = 0; e < n; e++) {
         const double h = rise[e] / 2;
         if (!(fabs(h) < wide)) {
-            const double s = sin(h) / h, slope = (cos(h) - s) / h;
-            w[e] = 1 - cos(middle[e]) * s;
-            w_m[e] = sin(middle[e]) * s;
-            w_r[e] = -cos(middle[e]) * slope / 2;
+            const double s = gm_sin(h) / h, slope = (gm_cos(h) - s) / h;
+            w[e] = 1 - gm_cos(middle[e]) * s;
+            w_m[e] = gm_sin(middle[e]) * s;
+            w_r[e] = -gm_cos(middle[e]) * slope / 2;
         }
     }
 }
@@ -105,13 +106,13 @@ static void sine_gordon_second(const struct gm_potential *potential, double midd
         slope = h * series_slope(z);
         bend = series_bend(z);
     } else {
-        s = sin(h) / h;
-        slope = (cos(h) - s) / h;
+        s = gm_sin(h) / h;
+        slope = (gm_cos(h) - s) / h;
         bend = -s - 2 * slope / h;
     }
-    *w_mm = cos(middle) * s;
-    *w_mr = sin(middle) * slope / 2;
-    *w_rr = -cos(middle) * bend / 4;
+    *w_mm = gm_cos(middle) * s;
+    *w_mr = gm_sin(middle) * slope / 2;
+    *w_rr = -gm_cos(middle) * bend / 4;
 }
 
 const struct gm_potential gm_potential_sine_gordon = {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for the equations of one step on a mesh: with factors that are kept, then, where that
    fails, with new ones and shortened steps, from one first guess after the other. */
+#include "core/functions/functions.h"
 #include "core/mesh/solver.h"
 
 #include <float.h>
@@ -397,7 +398,7 @@ static double growth(const struct gm_mesh *mesh, const double *state)
     const size_t points = mesh->points;
     const double *x = state + points, *v = state + 3 * points;
     const double coarse = 0.208 * mesh->length / (double)(points + 1);
-    double x0 = mesh->first, v0 = 0, sum = pow(coarse, -4), change = 0;
+    double x0 = mesh->first, v0 = 0, sum = gm_pow(coarse, -4), change = 0;
     for (size_t e = 0; e <= points; e++) {
         const double x1 = e < points ? x[e] : mesh->first + mesh->length, v1 = e < points ? v[e] : 0;
         const double d = x1 - x0, weight = 1 / (d * d * d * d);

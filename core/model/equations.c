@@ -9,6 +9,7 @@
 
 #include "core/expression/derivative.h"
 #include "core/expression/linear_part.h"
+#include "core/functions/functions.h"
 #include "core/linear/iteration.h"
 #include "core/model/breaks.h"
 #include "core/tape.h"
@@ -1218,7 +1219,7 @@ static void check_determined(struct gm_user_system *system)
     for (int trial = 0; trial < TRIALS && free_one < n; trial++) {
         double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];
         for (size_t i = 0; i < n; i++) {
-            values[i] = 0.3 + 0.37 * sin(1 + 2.3 * (double)i + 5.1 * trial);
+            values[i] = 0.3 + 0.37 * gm_sin(1 + 2.3 * (double)i + 5.1 * trial);
         }
         const double *all = gm_equations_values(system, values);
         for (size_t i = 0; i < n * n; i++) {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/expression/graph.h"
+#include "core/functions/instructions.h"
 #include "core/kind.h"
 
 struct gm_arena; /* core/arena.h */
@@ -14,9 +15,6 @@ struct gm_loops; /* core/ode/kernel/loops.h */
 
 /* Ordinary differential equations y' = f(y) and the structure that they may have. All arrays are
    component-major, [component * m + member], for the m members passed. */
-
-/* Instruction sets that loops are compiled for. */
-enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 
 /* H(q, p) = T(p) + V(q), or q' = p, p' = g(q, t): exact flows of two parts; q are the first n / 2 components */
 struct gm_split {

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };
 static const double LARGEST = 1e6;
 
@@ -66,7 +68,7 @@ static bool is_short_dyadic(double value)
 /* Returns half a unit of digit number DIGITS of a value. */
 static double half_unit(double value)
 {
-    return pow(10, floor(log10(fabs(value))) + 1 - DIGITS) / 2;
+    return gm_pow(10, floor(gm_log10(fabs(value))) + 1 - DIGITS) / 2;
 }
 
 struct gm_ball gm_ball_written(double value)
@@ -100,7 +102,7 @@ struct gm_ball gm_ball_decimal(const char *text, size_t length, double value)
     mpfr_t number;
     begin(number, &ball);
     const bool rounded = mpfr_strtofr(number, text, NULL, 10, MPFR_RNDN) != 0;
-    const double unit = pow(10, (i < length ? strtod(text + i + 1, NULL) : 0) - behind);
+    const double unit = gm_pow(10, (i < length ? strtod(text + i + 1, NULL) : 0) - behind);
     const bool whole = !point && i == length;
     const bool dyadic = !rounded && mpfr_cmp_d(number, value) == 0 && is_short_dyadic(value);
     const bool printed = digits > DIGITS && digits <= DIGITS + 2;
@@ -224,7 +226,7 @@ struct gm_ball gm_ball_sqrt(struct gm_ball a)
 
 struct gm_ball gm_ball_exp(struct gm_ball a)
 {
-    return map(mpfr_exp, &a, exp(gm_ball_midpoint(a) + a.radius) * 1.0000001);
+    return map(mpfr_exp, &a, gm_exp(gm_ball_midpoint(a) + a.radius) * 1.0000001);
 }
 
 struct gm_ball gm_ball_log(struct gm_ball a)
@@ -259,7 +261,7 @@ void gm_ball_print(struct gm_ball a, int digits, char *text, size_t size)
     mpfr_t number;
     view(number, &a);
     const double value = fabs(mpfr_get_d(number, MPFR_RNDN));
-    const int before = value > 0 ? (int)floor(log10(value)) + 1 : 1;
+    const int before = value > 0 ? (int)floor(gm_log10(value)) + 1 : 1;
     mpfr_snprintf(text, size, "%.*Rf", digits > before ? digits - before : 0, number);
 }
 

@@ -11,6 +11,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "core/arena.h"
+#include "core/functions/functions.h"
 #include "core/memory.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -107,7 +108,7 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     bool varies = false, linear = true, quadratic = true, bilinear = true, of_momenta = true;
     for (int k = 1; all && k <= DIRECTIONS; k++) {
         for (size_t c = 0; c < varied; c++) {
-            all[c] = size * sin(k * (double)(3 * c + 1)); /* any direction */
+            all[c] = size * gm_sin(k * (double)(3 * c + 1)); /* any direction */
             *(c < half ? &q[c] : &p[c]) = all[c];
         }
         varies = varies || !(differences_of(kept, start, n, 1, all) < none);

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
+
 void gm_polynomial_settle(struct gm_polynomial *p)
 {
     for (int k = 0; k <= p->degree; k++) {
@@ -95,7 +97,7 @@ static int crossings(const struct gm_ball *at, int degree, double *places)
         slope[k - 1] = gm_ball_multiply(gm_ball_of(k), at[k]);
     }
     for (int k = 0; k < degree; k++) {
-        bound = fmax(bound, 2 * pow(fabs(gm_ball_midpoint(at[k])) / leading, 1. / (degree - k)));
+        bound = fmax(bound, 2 * gm_pow(fabs(gm_ball_midpoint(at[k])) / leading, 1. / (degree - k)));
     }
     int count = 0, turn_count = crossings(slope, degree - 1, turns);
     turns[turn_count++] =

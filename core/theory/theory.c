@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/functions/functions.h"
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
@@ -126,7 +127,7 @@ static bool holds(const struct gm_trees *trees, const struct weights *weights, s
     for (int tree = first; tree < last; tree++) {
         const struct gm_ball defect = residual(trees, weights, tree);
         const double size = fabs(gm_ball_midpoint(defect));
-        norm = hypot(norm, size / trees->trees[tree].symmetry);
+        norm = gm_hypot(norm, size / trees->trees[tree].symmetry);
         if (!gm_ball_may_vanish(defect) || is_beyond_doubt(trees, weights, tree, defect)) {
             failing++;
             if (size > fabs(theory->residual)) {
@@ -142,7 +143,7 @@ static bool holds(const struct gm_trees *trees, const struct weights *weights, s
     }
     theory->failing = failing;
     theory->of = last - first;
-    theory->error_constant = norm * pow(weights->method->evaluations, theory->order);
+    theory->error_constant = norm * gm_pow(weights->method->evaluations, theory->order);
     return false;
 }
 
@@ -477,7 +478,7 @@ static int digits_of(const struct gm_coefficients *coefficients)
                 i < s * s ? coefficients->a[side][i] : coefficients->b[side][i - s * s];
             const double size = fabs(gm_ball_midpoint(ball));
             if (size > 0 && ball.radius > rounding * size) {
-                const double digits = 1 + floor(log10(size)) - log10(2 * ball.radius);
+                const double digits = 1 + floor(gm_log10(size)) - gm_log10(2 * ball.radius);
                 fewest = fmin(fewest, digits);
                 most = fmax(most, digits);
             }

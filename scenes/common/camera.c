@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 
 /* The box is shown with this factor of room for names. */
@@ -26,7 +27,7 @@ void gm_space_turn(struct gm_space *space, const struct gm_camera *camera, doubl
 {
     const double azimuth = fmod(camera->azimuth + camera->turn * t, 360) * M_PI / 180;
     const double elevation = camera->elevation * M_PI / 180;
-    const double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
+    const double ca = gm_cos(azimuth), sa = gm_sin(azimuth), ce = gm_cos(elevation), se = gm_sin(elevation);
     memcpy(space->right, (const double[]){-sa, ca, 0}, sizeof space->right);
     memcpy(space->up, (const double[]){-se * ca, -se * sa, ce}, sizeof space->up);
     memcpy(space->towards, (const double[]){ce * ca, ce * sa, se}, sizeof space->towards);
@@ -40,7 +41,7 @@ void gm_space_fit(struct gm_space *space, const struct gm_camera *camera, double
         centre[k] = reach > 0 ? 0 : 0.5 * (space->low[k] + space->high[k]);
         half[k] = 0.5 * (space->high[k] - space->low[k]);
     }
-    const double ce = fabs(space->up[2]), se = fabs(space->towards[2]), round = hypot(half[0], half[1]);
+    const double ce = fabs(space->up[2]), se = fabs(space->towards[2]), round = gm_hypot(half[0], half[1]);
     const double width = reach > 0 ? reach : round;
     const double height = reach > 0 ? reach : se * round + ce * half[2];
     const double deep = reach > 0 ? reach : ce * round + se * half[2];

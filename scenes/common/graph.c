@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 /* True if the step is a simple fraction of pi: then times are written so. */
 static bool counts_in_pi(double dt)
 {
@@ -57,9 +59,9 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt)
         return fraction;
     }
     /* decimals that show a step, so that digits stay while time runs */
-    int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
+    int decimals = (int)ceil(-gm_log10(fabs(dt)) + 0.5);
     decimals = decimals < 1 ? 1 : decimals > 6 ? 6 : decimals;
-    const bool below = t < -0.5 * pow(10, -decimals); /* a value that rounds to zero has no sign */
+    const bool below = t < -0.5 * gm_pow(10, -decimals); /* a value that rounds to zero has no sign */
     return gm_picture_text(picture, "%s%.*f", below ? "−" : "", decimals, fabs(t));
 }
 
@@ -171,7 +173,7 @@ void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm
     for (size_t i = 0; i < PIECES; i++) {
         const size_t first = i * count / PIECES, last = (i + 1) * count / PIECES;
         const size_t end = last < count ? last + 1 : count; /* pieces meet */
-        style.alpha = alpha * (0.06 + 0.94 * pow((double)(i + 1) / PIECES, 2));
+        style.alpha = alpha * (0.06 + 0.94 * gm_pow((double)(i + 1) / PIECES, 2));
         if (end - first > 1) {
             gm_mark_line(picture, panel, style, points + 2 * first, end - first, false);
         }
@@ -195,8 +197,8 @@ const char *gm_power_text(struct gm_picture *picture, double value)
     if (value == 0 || !isfinite(value) || (fabs(value) >= 0.01 && fabs(value) < 1000)) {
         return gm_picture_text(picture, "%.2g", value);
     }
-    int power = (int)floor(log10(fabs(value)));
-    double front = value / pow(10, power);
+    int power = (int)floor(gm_log10(fabs(value)));
+    double front = value / gm_pow(10, power);
     if (fabs(front) > 9.95) {
         front /= 10;
         power++;
@@ -452,12 +454,12 @@ static void mark_roundoff(struct gm_picture *picture, struct gm_panel *panel)
     const double roundoff = 2.220446049250313e-16, high = panel->y.high;
     if (panel->y.scale == GM_LOG && panel->y.low < roundoff && high > roundoff) {
         /* the label is under the line, away from the errors */
-        const double low = fmin(panel->y.low, roundoff * pow(high / roundoff, -0.16));
+        const double low = fmin(panel->y.low, roundoff * gm_pow(high / roundoff, -0.16));
         panel->y.low = low;
         const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
         gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     panel->x.high, roundoff * pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
+                     panel->x.high, roundoff * gm_pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
     }
 }
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 
 /* Numbers of classes of depth and age of a line, of pieces of a segment, of pieces of a circle. */
@@ -132,7 +133,7 @@ static void draw_circle(struct gm_picture *picture, struct gm_panel *panel, cons
 {
     double points[3 * (CIRCLE + 1)];
     for (size_t i = 0; i <= CIRCLE; i++) {
-        const double c = cos(2 * M_PI * (double)i / CIRCLE), s = sin(2 * M_PI * (double)i / CIRCLE);
+        const double c = gm_cos(2 * M_PI * (double)i / CIRCLE), s = gm_sin(2 * M_PI * (double)i / CIRCLE);
         for (size_t k = 0; k < 3; k++) {
             points[3 * i + k] = stroke.on->axes[k] * (centre[k] + c * across[k] + s * along[k]);
         }
@@ -157,7 +158,7 @@ static void draw_outline(struct gm_picture *picture, struct gm_panel *panel, con
     }
     gm_cross(d, across, along);
     for (size_t i = 0; i <= CIRCLE; i++) {
-        const double c = cos(2 * M_PI * (double)i / CIRCLE), s = sin(2 * M_PI * (double)i / CIRCLE);
+        const double c = gm_cos(2 * M_PI * (double)i / CIRCLE), s = gm_sin(2 * M_PI * (double)i / CIRCLE);
         for (size_t k = 0; k < 3; k++) {
             points[3 * i + k] = surface->axes[k] * (c * across[k] + s * along[k] + 1e-3 * d[k]);
         }
@@ -176,12 +177,12 @@ static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const 
     const struct gm_stroke_in_space stroke = {.style = style, .on = surface};
     const double up[3] = {0, 0, 1}, middle[3] = {0, 0, 0};
     for (int degrees = -90 + SPACING; degrees < 90; degrees += SPACING) {
-        const double c = cos(degrees * M_PI / 180), s = sin(degrees * M_PI / 180);
+        const double c = gm_cos(degrees * M_PI / 180), s = gm_sin(degrees * M_PI / 180);
         draw_circle(picture, panel, space, stroke, (const double[]){c, 0, 0}, (const double[]){0, c, 0},
                     (const double[]){0, 0, s});
     }
     for (int degrees = 0; degrees < 180; degrees += SPACING) {
-        const double c = cos(degrees * M_PI / 180), s = sin(degrees * M_PI / 180);
+        const double c = gm_cos(degrees * M_PI / 180), s = gm_sin(degrees * M_PI / 180);
         draw_circle(picture, panel, space, stroke, (const double[]){c, s, 0}, up, middle);
     }
 }
@@ -219,7 +220,7 @@ static void draw_meeting(struct gm_picture *picture, struct gm_panel *panel, con
     for (int octant = 0; octant < 8 && low < high && isfinite(low) && isfinite(high); octant++) {
         double points[3 * (PIECES + 1)];
         for (size_t n = 0; n <= PIECES; n++) {
-            const double s = 0.5 * (low + high) - 0.5 * (high - low) * cos(M_PI * (double)n / PIECES);
+            const double s = 0.5 * (low + high) - 0.5 * (high - low) * gm_cos(M_PI * (double)n / PIECES);
             for (size_t k = 0; k < 3; k++) {
                 points[3 * n + k] = (octant >> k & 1 ? -1 : 1) * sqrt(fmax(0, p[k] + s * q[k]));
             }
@@ -315,7 +316,7 @@ static void name_edge(struct gm_picture *picture, struct gm_panel *panel, const 
     gm_space_place(space, from, a);
     gm_space_place(space, to, b);
     const double x = 0.5 * (a[0] + b[0]) - middle[0], y = 0.5 * (a[1] + b[1]) - middle[1];
-    const double far = hypot(x, y),
+    const double far = gm_hypot(x, y),
                  size = 0.5 * fmin(panel->x.high - panel->x.low, panel->y.high - panel->y.low);
     const double off = far > 0 ? 0.075 * size / far : 0;
     if (!numbers) {

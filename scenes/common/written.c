@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/schemes.h"
 
 const char *gm_written_number(struct gm_arena *arena, double value, const char *given)
@@ -158,6 +159,6 @@ size_t gm_written_schemes(struct gm_arena *arena, const char *text, const struct
 
 double gm_written_rounded(double value)
 {
-    const double scale = pow(10, floor(log10(value))), digits = value / scale;
+    const double scale = gm_pow(10, floor(gm_log10(value))), digits = value / scale;
     return (digits < sqrt(2) ? 1 : digits < sqrt(10) ? 2 : digits < sqrt(50) ? 5 : 10) * scale;
 }

@@ -10,6 +10,7 @@
 #include "core/basics.h"
 #include "core/field/families/laws/laws.h"
 #include "core/field/problems/problems.h"
+#include "core/functions/functions.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/frames.h"
 
@@ -76,13 +77,13 @@ static bool place_profile(const struct gm_view *view, size_t i, double *values, 
 
 static double modulus(const struct gm_view *view, size_t node)
 {
-    return hypot(view->state[node], view->state[view->problem->line.points + node]);
+    return gm_hypot(view->state[node], view->state[view->problem->line.points + node]);
 }
 
 static double exact_modulus(const struct gm_view *view, double x)
 {
-    return gm_field_is_known(view) ? hypot(gm_user_line_exact(gm_field_line(view), 0, x, view->t),
-                                           gm_user_line_exact(gm_field_line(view), 1, x, view->t))
+    return gm_field_is_known(view) ? gm_hypot(gm_user_line_exact(gm_field_line(view), 0, x, view->t),
+                                              gm_user_line_exact(gm_field_line(view), 1, x, view->t))
                                    : NAN;
 }
 

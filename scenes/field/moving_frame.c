@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Invariant schemes in their moving frames: how far these travel, what a symmetry leaves of a step, and a picture. */
+#include "core/functions/functions.h"
 #include "scenes/field/frames.h"
 
 #include <math.h>
@@ -151,7 +152,7 @@ static struct stencil stencil_of(const struct gm_lane *lane, const struct look *
             made.nodes[c][2 * e + 1] = both[c].t / k;
             if (!next) { /* at the next level only positions count */
                 made.values[c][2 * e] = both[c].x / h;
-                made.values[c][2 * e + 1] = look->logarithmic ? log(both[c].u) : both[c].u;
+                made.values[c][2 * e + 1] = look->logarithmic ? gm_log(both[c].u) : both[c].u;
             }
         }
     }

@@ -8,6 +8,7 @@
 
 #include "core/basics.h"
 #include "core/field/families/laws/laws.h"
+#include "core/functions/functions.h"
 #include "core/tape.h"
 #include "scenes/common/system/pieces.h"
 #include "scenes/field/kind.h"
@@ -151,7 +152,7 @@ double gm_field_solution_error(const struct gm_view *view)
         for (size_t c = 0; c < components; c++) {
             const double there = gm_user_line_exact(gm_field_line(view), c, x, view->t),
                          by = view->state[c * grid->points + i] - constants[c] - there;
-            error = field->kind->complex_valued ? hypot(error, by) : gm_larger(fabs(by), error);
+            error = field->kind->complex_valued ? gm_hypot(error, by) : gm_larger(fabs(by), error);
         }
         largest = gm_larger(error, largest);
     }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/functions/functions.h"
 #include "scenes/field/frames.h"
 
 #include <math.h>
@@ -167,7 +168,7 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
         const bool inside = point[1] <= panel->y.high;
         if (!inside && before && before[1] > 0 && before[1] <= panel->y.high) {
             /* the line ends at the upper edge: the scheme fails there */
-            const double part = log(panel->y.high / before[1]) / log(point[1] / before[1]);
+            const double part = gm_log(panel->y.high / before[1]) / gm_log(point[1] / before[1]);
             const double line[] = {before[0], before[1], before[0] + part * (point[0] - before[0]),
                                    panel->y.high};
             gm_mark_line(picture, panel, style, line, 2, false);
@@ -255,14 +256,14 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
         }
         curves[made] = (struct curve){.scheme = lanes[i]->scheme};
         if (!seen && draw_curve(picture, panel, lanes, count, series, &curves[made], points)) {
-            curves[made].at = log(curves[made].end[1]);
+            curves[made].at = gm_log(curves[made].end[1]);
             made++;
         }
     }
-    part_names(curves, made, log(low), log(high), 0.13 * log(high / low));
+    part_names(curves, made, gm_log(low), gm_log(high), 0.13 * gm_log(high / low));
     for (size_t i = 0; i < made; i++) {
         gm_mark_text(picture, panel, (struct gm_style){.role = curves[i].role, .alpha = 1, .width = 1},
-                     curves[i].end[0] + 0.03 * (panel->x.high - panel->x.low), exp(curves[i].at),
+                     curves[i].end[0] + 0.03 * (panel->x.high - panel->x.low), gm_exp(curves[i].at),
                      GM_ANCHOR_LEFT, curves[i].scheme->title);
     }
 }

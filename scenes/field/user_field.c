@@ -9,6 +9,7 @@
    A kind is a row: its keys, problem, start, observables and picture. Parameters of the file are keys, with
    the ring and its grid; its conserved and observed quantities are integrals of densities. The scene is made
    while the program runs, and does not change afterwards. */
+#include "core/functions/functions.h"
 #include "scenes/field/kind.h"
 
 #include <math.h>
@@ -228,7 +229,7 @@ static void make_work(struct gm_user_field *field)
         work->errors = field->errors;
         for (size_t i = 0; i < GM_COUNT(field->resolutions); i++) {
             field->resolutions[i] = fmax(field->kind->rows->lowest, floor(ldexp(points, (int)i - 1)));
-            field->errors[i] = pow(10, -1 - (double)i);
+            field->errors[i] = gm_pow(10, -1 - (double)i);
         }
     }
 }

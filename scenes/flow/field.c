@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The field of a flow in colours, and the marks over it: streamlines as level lines of the stream function (the very paths
    of the discrete velocity), walls, the mesh, tracers with short tails, arrows, names. */
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/look.h"
 
@@ -344,7 +345,7 @@ static void name_openings(struct gm_picture *picture, struct gm_panel *panel, co
         find_outward(flow, opening, outward, middle);
         const double x = outward[0], z = outward[1];
         const bool upright = fabs(x) >= fabs(z);
-        const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
+        const double away = (upright ? 0.012 : 0.028) * size / gm_hypot(x, z);
         struct gm_mark *name = gm_mark_text(picture, panel, style, middle[0] + away * x, middle[1] + away * z,
                                             upright && x < 0 ? GM_ANCHOR_RIGHT
                                             : upright        ? GM_ANCHOR_LEFT
@@ -383,7 +384,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     if (flows->show == GM_SHOW_SPEED) {
         gm_flow_vertex_velocities(complex, y, scratch);
         for (size_t v = 0; v < n; v++) {
-            values[v] = hypot(scratch[2 * v], scratch[2 * v + 1]);
+            values[v] = gm_hypot(scratch[2 * v], scratch[2 * v + 1]);
         }
         return values;
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/look.h"
 
@@ -185,7 +186,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         gm_mark_points(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 6},
                        points[k], made[k]);
         const double *first = points[k], *last = points[k] + 2 * (made[k] - 1);
-        const double slope = made[k] > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
+        const double slope = made[k] > 1 ? gm_log(first[1] / last[1]) / gm_log(first[0] / last[0]) : NAN;
         const char *name =
             made[k] > 1 ? gm_picture_text(picture, "%s, order %.2f", errors[k].name, slope) : errors[k].name;
         gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},

@@ -11,6 +11,7 @@
 
 #include "core/basics.h"
 #include "core/files/files.h"
+#include "core/functions/functions.h"
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
 #include "render/files/regular_file.h"
@@ -181,7 +182,7 @@ static double observe_local(const struct gm_view *view)
             return NAN;
         }
         return subject->what == SCALAR  ? sample.theta
-               : subject->what == SPEED ? hypot(sample.u, sample.v)
+               : subject->what == SPEED ? gm_hypot(sample.u, sample.v)
                                         : sample.temperature;
     case PRESSURE:
         return stepped && gm_flow_pressure_at(flow, view->state, at[0], at[1], &pressure) ? pressure : NAN;
@@ -429,8 +430,8 @@ static double apart(const struct gm_complex *complex, const double *value, const
         mean += complex->star0[v] * finer[v] / complex->total_area;
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        square += complex->star0[v] * pow(value[v] - finer[v], 2);
-        size += complex->star0[v] * pow(finer[v] - mean, 2);
+        square += complex->star0[v] * gm_pow(value[v] - finer[v], 2);
+        size += complex->star0[v] * gm_pow(finer[v] - mean, 2);
     }
     return square > 0 ? sqrt(square / size) : 0;
 }

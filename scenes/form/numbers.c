@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "scenes/form/form.h"
 
 static const struct gm_style primal = {GM_LANE, 1, 1.6, GM_SOLID}, dual = {GM_INITIAL, 1, 1.6, GM_SOLID},
@@ -91,7 +92,7 @@ static void draw_one(const struct gm_form_sheet *sheet, const struct kind *kind,
     } else if (kind->dimension == 1) {
         const double sign = sheet->complex->triangle_sign[3 * sheet->triangle[corner / 3] + corner % 3];
         const double x = to[0] - from[0], y = to[1] - from[1];
-        const double scale = kind->size / 3 / fmax(hypot(x, y), 1e-300), ahead = sign * 0.28;
+        const double scale = kind->size / 3 / fmax(gm_hypot(x, y), 1e-300), ahead = sign * 0.28;
         const double head[2] = {at[0] + (kind->dual ? 0 : ahead * x), at[1] + (kind->dual ? 0 : ahead * y)};
         draw_head(sheet, kind->dual ? dual : primal, head, scale * sign * (kind->dual ? -y : x),
                   scale * sign * (kind->dual ? x : y));
@@ -106,12 +107,12 @@ static void draw_one(const struct gm_form_sheet *sheet, const struct kind *kind,
         double circle[2 * ARC];
         for (size_t n = 0; n < ARC; n++) {
             const double a = sense * (0.6 + 5 * (double)n / (ARC - 1));
-            circle[2 * n] = at[0] + round * cos(a);
-            circle[2 * n + 1] = at[1] + round * sin(a);
+            circle[2 * n] = at[0] + round * gm_cos(a);
+            circle[2 * n + 1] = at[1] + round * gm_sin(a);
         }
         const double *end = circle + 2 * (ARC - 1), a = sense * 5.6, length = sense * kind->size / 4;
         draw_line(sheet, style, circle, ARC, false);
-        draw_head(sheet, style, end, -length * sin(a), length * cos(a));
+        draw_head(sheet, style, end, -length * gm_sin(a), length * gm_cos(a));
         draw_text(sheet, style.role, at[0], at[1], text);
     }
 }
@@ -191,7 +192,7 @@ static size_t nearest_of(const struct gm_form_sheet *sheet, size_t dimension, do
         double at[2];
         find_place(sheet, dimension, i, at);
         const double away =
-            hypot((at[0] - panel->x.low) / width - across, (at[1] - panel->y.low) / height - up);
+            gm_hypot((at[0] - panel->x.low) / width - across, (at[1] - panel->y.low) / height - up);
         if (away < nearest && complex->edge_triangle[2 * e] >= 0 && complex->edge_triangle[2 * e + 1] >= 0) {
             nearest = away;
             chosen = i;

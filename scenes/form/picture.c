@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/form/values.h"
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/texts.h"
 #include "scenes/form/form.h"
@@ -119,7 +120,7 @@ static void draw_arrows(const struct gm_form_sheet *sheet, const double *vectors
         }
         const size_t place = (size_t)row * columns + (size_t)column;
         const double away =
-            hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
+            gm_hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
         if (away < nearest[place]) {
             double d[2] = {v[0], v[1]};
             if (!sheet->flat) {
@@ -295,7 +296,7 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
         range[0] = -most;
         range[1] = most;
     }
-    const double unit = pow(10, floor(log10(fmin(fmax(most, 1e-300), range[1] - range[0])))) / 5,
+    const double unit = gm_pow(10, floor(gm_log10(fmin(fmax(most, 1e-300), range[1] - range[0])))) / 5,
                  slack = 0.05;
     range[0] = unit * floor(range[0] / unit + slack);
     range[1] = unit * ceil(range[1] / unit - slack);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 #include "scenes/form/form.h"
 
@@ -150,7 +151,7 @@ static void place_in_space(struct gm_form_sheet *sheet, const struct gm_camera *
     }
     for (size_t v = 0; v < complex->vertices; v++) {
         gm_complex_vertex(complex, v, p);
-        const double away = hypot(p[0] - centre[0], p[1] - centre[1]);
+        const double away = gm_hypot(p[0] - centre[0], p[1] - centre[1]);
         across = fmax(across, away);
         along = fmax(along, fabs(sight->towards[2]) * away + fabs(sight->up[2] * (p[2] - centre[2])));
     }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/expression/number.h"
+#include "core/functions/functions.h"
 #include "core/mesh/user/potential.h"
 #include "scenes/common/graph.h"
 #include "scenes/mesh/observed.h"
@@ -76,7 +77,7 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
         const double *left = nodes + 2 * e, d = left[2] - left[0];
         double at[GM_BETWEEN_INPUTS][PARTS + 1], velocity[PARTS + 1];
         for (size_t i = 0; i <= PARTS; i++) {
-            at[0][i] = (1 - cos(M_PI * (double)i / PARTS)) / 2; /* closer where a long cell bends */
+            at[0][i] = (1 - gm_cos(M_PI * (double)i / PARTS)) / 2; /* closer where a long cell bends */
             at[1][i] = d;
             at[2][i] = left[1];
             at[3][i] = left[3];
@@ -94,13 +95,13 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
 static bool find_axes(const double block[3], double axes[2][2])
 {
     const double mean = (block[0] + block[2]) / 2, half = (block[0] - block[2]) / 2,
-                 apart = hypot(half, block[1]),
-                 angle = atan2(block[1], half) / 2; /* of the stiff direction */
+                 apart = gm_hypot(half, block[1]),
+                 angle = gm_atan2(block[1], half) / 2; /* of the stiff direction */
     const double least = mean - apart, largest = mean + apart;
-    axes[0][0] = -sin(angle) / sqrt(least);
-    axes[0][1] = cos(angle) / sqrt(least);
-    axes[1][0] = cos(angle) / sqrt(largest);
-    axes[1][1] = sin(angle) / sqrt(largest);
+    axes[0][0] = -gm_sin(angle) / sqrt(least);
+    axes[0][1] = gm_cos(angle) / sqrt(least);
+    axes[1][0] = gm_cos(angle) / sqrt(largest);
+    axes[1][1] = gm_sin(angle) / sqrt(largest);
     return least > 1e-9 * largest;
 }
 
@@ -129,7 +130,7 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
     }
     for (size_t k = 0; k < mesh.points; k++) {
         if (find_axes(blocks[k], axes)) {
-            sizes[count++] = hypot(axes[0][1] / width, axes[0][0] / height);
+            sizes[count++] = gm_hypot(axes[0][1] / width, axes[0][0] / height);
         }
     }
     qsort(sizes, count, sizeof *sizes, ascending);
@@ -143,8 +144,8 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
         const double reach = scale * fabs(axes[0][1]),
                      part = scale * fmin(1, fmin(node[0] - node[-2], node[2] - node[0]) / reach);
         for (size_t i = 0; i < AROUND; i++) {
-            const double c = part * cos(2 * M_PI * (double)i / AROUND),
-                         s = part * sin(2 * M_PI * (double)i / AROUND);
+            const double c = part * gm_cos(2 * M_PI * (double)i / AROUND),
+                         s = part * gm_sin(2 * M_PI * (double)i / AROUND);
             around[2 * i] = node[0] + c * axes[0][1] + s * axes[1][1];
             around[2 * i + 1] = node[1] + c * axes[0][0] + s * axes[1][0];
         }
@@ -314,7 +315,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         if (made > 0) {
             const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
             gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
-                         at[1] * pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
+                         at[1] * gm_pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
         }
         series++;
     }

@@ -6,6 +6,7 @@
    With `members` the start is a disc in the plane that is shown, a grid of it, or a line along its first
    axis: the last member is in the middle, all others of a disc are on the edge. Observables are values of the
    centre; if the state is a plane, also the disc's area. */
+#include "core/functions/functions.h"
 #include "scenes/common/system/hook.h"
 
 #include <math.h>
@@ -112,9 +113,9 @@ static double section(const struct gm_view *view)
     }
     gm_system_values(&system_scene->where, view, view->member, values);
     if (system_scene->stroboscopic) {
-        return sin(2 * M_PI * (view->t - view->t0) / values[0]);
+        return gm_sin(2 * M_PI * (view->t - view->t0) / values[0]);
     }
-    return system_scene->turns ? sin(values[0] / 2) : values[0];
+    return system_scene->turns ? gm_sin(values[0] / 2) : values[0];
 }
 
 static bool is_admitted(const struct gm_view *view)
@@ -122,7 +123,7 @@ static bool is_admitted(const struct gm_view *view)
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
     gm_system_values(&system_scene->where, view, view->member, values);
-    bool holds = !system_scene->stroboscopic || cos(2 * M_PI * (view->t - view->t0) / values[0]) > 0;
+    bool holds = !system_scene->stroboscopic || gm_cos(2 * M_PI * (view->t - view->t0) / values[0]) > 0;
     for (size_t i = 0; i < system_scene->conditions; i++) {
         holds = holds && values[1 + i] > 0;
     }
@@ -223,8 +224,8 @@ static void place_member(const struct gm_system_lane *lane, size_t member, size_
         return;
     }
     if (lane->shape == GM_SHAPE_DISC) {
-        from_centre[0] = lane->spread * cos(2 * M_PI * index / last);
-        from_centre[1] = lane->spread * sin(2 * M_PI * index / last);
+        from_centre[0] = lane->spread * gm_cos(2 * M_PI * index / last);
+        from_centre[1] = lane->spread * gm_sin(2 * M_PI * index / last);
     } else if (lane->shape == GM_SHAPE_LINE) {
         from_centre[0] = last > 1 ? lane->spread * (2 * index / (last - 1) - 1) : lane->spread;
     } else if (side > 1) {
@@ -300,7 +301,7 @@ static double radian_at(const struct gm_problem *problem, const double *y)
         if (gm_eigenvalues(matrix, n, there, below)) {
             for (size_t i = 0; i < n; i++) {
                 fastest = fmax(fastest, fabs(below[i]));
-                largest = fmax(largest, hypot(there[i], below[i]));
+                largest = fmax(largest, gm_hypot(there[i], below[i]));
             }
         }
     }

@@ -15,6 +15,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/common/entries.h"
 #include "scenes/common/graph.h"
@@ -93,11 +94,11 @@ static void turn_polygon(const struct gm_problem *problem, double t, const doubl
     (void)m;
     const size_t count = problem->n / 2;
     const double strength = *(const double *)problem->parameters;
-    const double radius = hypot(y0[0], y0[count]);
+    const double radius = gm_hypot(y0[0], y0[count]);
     const double turn = (double)(count - 1) * strength / (4 * M_PI * radius * radius) * t;
     for (size_t i = 0; i < count; i++) {
-        y[i] = cos(turn) * y0[i] - sin(turn) * y0[count + i];
-        y[count + i] = sin(turn) * y0[i] + cos(turn) * y0[count + i];
+        y[i] = gm_cos(turn) * y0[i] - gm_sin(turn) * y0[count + i];
+        y[count + i] = gm_sin(turn) * y0[i] + gm_cos(turn) * y0[count + i];
     }
 }
 
@@ -165,8 +166,8 @@ static void place(const struct vortices *vortices, size_t count, double *x, doub
         default:
             break;
         }
-        x[i] = radius * cos(turn);
-        y[i] = radius * sin(turn);
+        x[i] = radius * gm_cos(turn);
+        y[i] = radius * gm_sin(turn);
         if (vortices->configuration == PATCHES) { /* odd ones are opposite to even ones */
             x[i] *= i % 2 == 0 ? 1 : -1;
             y[i] = (i % 2 == 0 ? 1 : -1) * (y[i] + 1 - patch);
@@ -192,7 +193,7 @@ static bool coincide(const struct vortices *vortices)
     bool close = false;
     for (size_t i = 0; i < 4; i++) {
         for (size_t j = i + 1; j < 4; j++) {
-            close |= hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
+            close |= gm_hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
         }
     }
     return close;
@@ -206,8 +207,8 @@ static void start(const void *parameters_, const struct gm_problem *problem, dou
     for (size_t k = 0; k < tracers; k++) {
         const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
                      turn = golden_angle * (double)k;
-        y[2 * carried + k] = radius * cos(turn);
-        y[2 * carried + tracers + k] = radius * sin(turn);
+        y[2 * carried + k] = radius * gm_cos(turn);
+        y[2 * carried + tracers + k] = radius * gm_sin(turn);
     }
 }
 
@@ -299,7 +300,7 @@ static double symmetry_defect(const struct gm_view *view)
     }
     return vortices->configuration == REDUCED
                ? 0
-               : fmax(hypot(s[0] + s[2], s[4] + s[6]), hypot(s[1] + s[3], s[5] + s[7]));
+               : fmax(gm_hypot(s[0] + s[2], s[4] + s[6]), gm_hypot(s[1] + s[3], s[5] + s[7]));
 }
 
 static double pair_distance(const struct gm_view *view)
@@ -309,7 +310,7 @@ static double pair_distance(const struct gm_view *view)
     if (vortices->configuration != COLLISION) {
         return NAN;
     }
-    return hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
+    return gm_hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
 }
 
 static double position_error(const struct gm_view *view)
@@ -322,7 +323,7 @@ static double position_error(const struct gm_view *view)
     const size_t count = problem->n / 2;
     const double turn =
         (double)(count - 1) * *(const double *)problem->parameters / (4 * M_PI) * (view->t - view->t0);
-    return hypot(view->state[0] - cos(turn), view->state[count] - sin(turn));
+    return gm_hypot(view->state[0] - gm_cos(turn), view->state[count] - gm_sin(turn));
 }
 
 static double tracers_lost(const struct gm_view *view)
@@ -349,7 +350,7 @@ static double quarter_turn(const struct gm_view *view)
 static void record_crossing(const struct gm_view *view, double *entry)
 {
     const size_t count = carried_of(view->parameters);
-    entry[0] = hypot(view->state[0], view->state[count]);
+    entry[0] = gm_hypot(view->state[0], view->state[count]);
 }
 
 static double section_shift(const struct gm_view *view)
@@ -372,7 +373,7 @@ static double section_shift(const struct gm_view *view)
 static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
 {
     const struct vortices *vortices = parameters_of;
-    const double turned = atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
+    const double turned = gm_atan2(y, x) - M_PI / 2; /* the first vortex of the square is at pi/2 */
     switch (vortices->configuration) {
     case REDUCED:
     case TWO_TURNED: /* its mirror image is as near */
@@ -382,7 +383,7 @@ static size_t point(const void *parameters_of, double x, double y, struct gm_cho
         gm_choose(&choices[0], "angle", remainder(turned, 2 * M_PI));
         return 1;
     case COLLISION:
-        gm_choose(&choices[0], "distance", fmin(2 * hypot(x, y), 1));
+        gm_choose(&choices[0], "distance", fmin(2 * gm_hypot(x, y), 1));
         return 1;
     default:
         return 0;

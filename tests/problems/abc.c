@@ -2,6 +2,7 @@
 /* The ABC flow; see abc.system. Its three components are shears, whose flows are exact. */
 #include <math.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "tests/problems/problems.h"
 
@@ -14,13 +15,13 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     for (size_t i = 0; i < m; i++) {
         switch (piece) {
         case 0:
-            x[i] += h * (abc[0] * sin(z[i]) + abc[2] * cos(y[i]));
+            x[i] += h * (abc[0] * gm_sin(z[i]) + abc[2] * gm_cos(y[i]));
             break;
         case 1:
-            y[i] += h * (abc[1] * sin(x[i]) + abc[0] * cos(z[i]));
+            y[i] += h * (abc[1] * gm_sin(x[i]) + abc[0] * gm_cos(z[i]));
             break;
         default:
-            z[i] += h * (abc[2] * sin(y[i]) + abc[1] * cos(x[i]));
+            z[i] += h * (abc[2] * gm_sin(y[i]) + abc[1] * gm_cos(x[i]));
         }
     }
 }

@@ -15,7 +15,7 @@
 #include "tests/problems/energy.h"
 
 #define GM_PASS_SCALAR
-#include "core/ode/kernel/simd.h"
+#include "core/functions/lanes.h"
 
 #include GM_ENERGIES
 

@@ -3,6 +3,7 @@
    Hairer, Lubich & Wanner (2006), IV.1. */
 #include <math.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "tests/problems/problems.h"
 
@@ -38,7 +39,7 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
 {
     static const double inverse[3] = {0.5, 1, 1.5};
     const size_t j = (piece + 1) % 3, k = (piece + 2) % 3;
-    const double angle = h * inverse[piece] * y[piece], c = cos(angle), s = sin(angle), before = y[j];
+    const double angle = h * inverse[piece] * y[piece], c = gm_cos(angle), s = gm_sin(angle), before = y[j];
     (void)problem;
     y[j] = c * before + s * y[k];
     y[k] = c * y[k] - s * before;

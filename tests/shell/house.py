@@ -197,7 +197,8 @@ for a in sorted(arrows):
 BODIES = {  # headers that mean something only where they are included
     r"\.kernel\.h$": "a problem's kernels, over the lane type of the pass that includes them",
     r"\.loop\.h$": "a family's loop over those kernels",
-    r"^core/ode/(compiled/pass|kernel/(simd|block|drive|formula))\.h$": "parts of a pass, of which a file has two",
+    r"^core/ode/(compiled/pass|kernel/(block|drive|formula))\.h$": "parts of a pass, of which a file has two",
+    r"^core/functions/(?!functions|complex|instructions|rows)\w+\.h$": "the functions of a pass",
 }
 headers = sorted(f for f in files if f.endswith(".h") and not any(re.search(body, f) for body in BODIES))
 

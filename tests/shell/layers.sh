@@ -57,11 +57,12 @@ forbid app/explorer 'app/commands/'
 wings=$(sed -n 's/^GM_KIND(\(.*\))$/\1/p' core/kinds.def)
 [ -n "$wings" ] || { echo "core/kinds.def names no kind"; exit 1; }
 of_a_wing="${include}\"core/($(echo $wings | tr ' ' '|'))/"
-found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/linear/*/*.[ch] core/theory/*.[ch] core/expression/*.[ch] core/model/*.[ch])
-# expression serves all of core, and knows nothing of it; model stands on expression, linear, theory and what has no
-# problem: arenas, tapes
-found="$found$(grep -nE "${include}\"core/" core/expression/*.[ch] | grep -v '"core/expression/')"
-found="$found$(grep -nE "${include}\"core/" core/model/*.[ch] | grep -vE '"core/((expression|model|linear|theory)/|(arena|basics|tape)\.h)')"
+found=$(grep -nE "$of_a_wing" core/*.[ch] core/functions/*.[ch] core/linear/*.[ch] core/linear/*/*.[ch] core/theory/*.[ch] core/expression/*.[ch] core/model/*.[ch])
+# functions and expression serve all of core, and know nothing of it; model stands on these, linear, theory and what
+# has no problem: arenas, tapes
+found="$found$(grep -nE "${include}\"core/" core/expression/*.[ch] | grep -vE '"core/(expression|functions)/')"
+found="$found$(grep -nE "${include}\"core/" core/functions/*.[ch] | grep -v '"core/functions/')"
+found="$found$(grep -nE "${include}\"core/" core/model/*.[ch] | grep -vE '"core/((expression|functions|model|linear|theory)/|(arena|basics|tape)\.h)')"
 for wing in $wings; do
     found="$found$(grep -rnE --include='*.[ch]' --include='*.def' "$of_a_wing" core/$wing |
         grep -vE "\"core/$wing/")"

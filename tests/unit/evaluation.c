@@ -15,6 +15,7 @@
 #include "core/basics.h"
 #include "core/expression/derivative.h"
 #include "core/expression/reader.h"
+#include "core/functions/functions.h"
 #include "core/tape.h"
 #include "tests/common/random_formula.h"
 
@@ -47,7 +48,7 @@ static double raise_to(double x, struct value exponent)
 {
     const double n = exponent.number;
     if (!exponent.constant || n != rint(n) || fabs(n) > 16) {
-        return pow(x, n);
+        return gm_pow(x, n);
     }
     return n < 0 ? 1 / chain(x, (int)-n) : chain(x, (int)n);
 }
@@ -66,15 +67,16 @@ static double apply_function(const char *name, double a, double b)
     static const struct {
         const char *name;
         double (*function)(double);
-    } singles[] = {{"sqrt", sqrt}, {"exp", exp},   {"log", log},   {"sin", sin},   {"cos", cos},
-                   {"tan", tan},   {"asin", asin}, {"acos", acos}, {"atan", atan}, {"sinh", sinh},
-                   {"cosh", cosh}, {"tanh", tanh}, {"erfc", erfc}, {"abs", fabs}};
+    } singles[] = {{"sqrt", sqrt},    {"exp", gm_exp},   {"log", gm_log},   {"sin", gm_sin},
+                   {"cos", gm_cos},   {"tan", gm_tan},   {"asin", gm_asin}, {"acos", gm_acos},
+                   {"atan", gm_atan}, {"sinh", gm_sinh}, {"cosh", gm_cosh}, {"tanh", gm_tanh},
+                   {"erfc", gm_erfc}, {"abs", fabs}};
     for (size_t i = 0; i < GM_COUNT(singles); i++) {
         if (strcmp(singles[i].name, name) == 0) {
             return singles[i].function(a);
         }
     }
-    return strcmp(name, "atan2") == 0 ? atan2(a, b)
+    return strcmp(name, "atan2") == 0 ? gm_atan2(a, b)
            : strcmp(name, "mod") == 0 ? modulo(a, b)
            : strcmp(name, "min") == 0 ? (a < b ? a : b)
                                       : (a > b ? a : b);

@@ -515,7 +515,7 @@ static void compilers_fail(void **state)
                   "PATH=/usr/bin:/bin; echo 'int nothing;' | /usr/bin/cc -shared -fPIC -o \"$2\" -x c -\n");
     refused("it holds no loops");
     /* loops whose numbers are others */
-    with_compiler("#!/bin/sh\nPATH=/usr/bin:/bin; exec cc -Dsin=cos \"$@\"\n");
+    with_compiler("#!/bin/sh\nPATH=/usr/bin:/bin; sed -i 's/K(sin)/K(cos)/' *.h; exec cc \"$@\"\n");
     refused("bit by bit");
 }
 

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/ode/trace_free.h"
@@ -67,11 +68,11 @@ static double energy_by_hand(size_t which, const double *y)
     case 0:
         return (p1 * p1 + p2 * p2 + q1 * q1 + q2 * q2) / 2 + q1 * q1 * q2 - q2 * q2 * q2 / 3;
     case 1:
-        return 0.5 * q2 * q2 - cos(q1);
+        return 0.5 * q2 * q2 - gm_cos(q1);
     case 2:
         return 0.5 * q2 * q2 + 0.5 * q1 * q1;
     case 3:
-        return 0.5 * y[3] * y[3] - cos(q1);
+        return 0.5 * y[3] * y[3] - gm_cos(q1);
     case 4:
         return 0.5 * y[3] * y[3] + 0.5 * q1 * q1;
     case 5:
@@ -115,7 +116,7 @@ static void energies_are_those_by_hand(void **unused)
         }
     }
     for (double q = -4; q < 4; q += 0.01) {
-        const double pendulum[3] = {-cos(q), sin(q), cos(q)}, oscillator[3] = {q * q / 2, q, 1};
+        const double pendulum[3] = {-gm_cos(q), gm_sin(q), gm_cos(q)}, oscillator[3] = {q * q / 2, q, 1};
         double values[3];
         gm_ode_of(&gm_problem_pendulum)->lagrangian->potential(&gm_problem_pendulum, q, values);
         assert_memory_equal(values, pendulum, sizeof values);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the schemes for waves are made of: sines, linear systems around a ring, Fourier transforms. */
+/* What the schemes for waves are made of: linear systems around a ring, Fourier transforms. */
 #include <complex.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,24 +14,6 @@
 #include "core/basics.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring/ring.h"
-#include "core/linear/sine.h"
-
-static void sines_are_sines(void **unused)
-{
-    (void)unused;
-    for (int k = -40000; k <= 40000; k++) {
-        const double x = 0.0123456789 * k * (k % 5 ? 1 : 200);
-        double sine = 0;
-        gm_sines(&x, &sine, 1);
-        assert_true(fabs(sine - sin(x)) <= 2.3e-16);
-    }
-    const double none = NAN, infinite = INFINITY;
-    double sine = 0;
-    gm_sines(&none, &sine, 1);
-    assert_true(isnan(sine));
-    gm_sines(&infinite, &sine, 1);
-    assert_true(isnan(sine));
-}
 
 /* Both ring solvers against the matrix. */
 static void rings_are_solved(void **unused)
@@ -254,7 +236,6 @@ static void a_root_on_the_unit_circle(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sines_are_sines),
         cmocka_unit_test(rings_are_solved),
         cmocka_unit_test(a_root_on_the_unit_circle),
         cmocka_unit_test(transforms_of_any_length),

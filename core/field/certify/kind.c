@@ -2,6 +2,7 @@
 /* The kind of fields in one space dimension: its facets, the families of schemes that need them, and their
    certification. */
 #include "core/field/field.h"
+#include "core/functions/functions.h"
 
 #include <float.h>
 #include <math.h>
@@ -223,7 +224,7 @@ static double order_in_time(const struct subject *subject, const double *y, doub
         change[k] = gm_distance(end + k * n, end + (k + 1) * n, subject->problem.line.points);
     }
     free(end);
-    return made ? log2(change[0] / change[1]) : NAN;
+    return made ? gm_log2(change[0] / change[1]) : NAN;
 }
 
 enum { LEVELS = 4, STEPS = 16 };
@@ -259,7 +260,7 @@ static double tell(const struct refined *refined, double by_differences, double 
                    struct gm_ladder *ladder, const char **reason)
 {
     const size_t last = refined->count - 1;
-    const double by_errors = log2(refined->error[last - 1] / refined->error[last]);
+    const double by_errors = gm_log2(refined->error[last - 1] / refined->error[last]);
     const bool exactly =
         by_errors > wanted || refined->error[last] > 2 * refined->change[last - 1] + 1e-3 * size;
     ladder->count = exactly ? last + 1 : last;
@@ -304,7 +305,7 @@ static bool is_smooth(const struct gm_certified_system *coarse, const struct gm_
     const double on_coarse = largest_difference(coarse, differences),
                  on_fine = largest_difference(fine, differences),
                  round_off = ldexp(8 * DBL_EPSILON, differences) * field_size(fine->problem, fine->start);
-    return on_fine <= round_off || log2(on_coarse / on_fine) > differences - 0.5;
+    return on_fine <= round_off || gm_log2(on_coarse / on_fine) > differences - 0.5;
 }
 
 /* The order over 16 steps, from a system and its refinements: the slope of the error if the exact solution
@@ -333,7 +334,7 @@ static double order_on_finer_grids(const struct gm_certified_system *system, con
             size = field_size(system->problem, system->start);
         } else {
             const double change = apart(coarse->problem, before, state, 2);
-            const double slope = k > 1 ? log2(refined.change[k - 2] / change) : NAN;
+            const double slope = k > 1 ? gm_log2(refined.change[k - 2] / change) : NAN;
             refined.change[k - 1] = change;
             if (change < 1e-11 * size) {
                 *reason = "differences between runs on finer grids do not exceed round-off";
@@ -341,7 +342,7 @@ static double order_on_finer_grids(const struct gm_certified_system *system, con
                 break;
             }
             /* an order above that which is claimed may be one of grids that are too coarse for it */
-            const double by_errors = log2(refined.error[k - 1] / refined.error[k]);
+            const double by_errors = gm_log2(refined.error[k - 1] / refined.error[k]);
             const bool told = fabs(by_errors - scheme->order) < 0.15 || fabs(slope - scheme->order) < 0.15 ||
                               fabs(slope - slope_before) < 0.15 ||
                               (slope > wanted && (k + 1 == LEVELS || !system->finer));
@@ -643,7 +644,7 @@ static void measure(struct gm_certificate *certificate, const struct equation *e
         if (open_equation(&finer, equation, "0", 1)) {
             subject.problem = finer.problem;
             subject.dt = ldexp(equation->dt, -equation->power);
-            order = log2(coarse / error_of(equation, &subject, finer.start));
+            order = gm_log2(coarse / error_of(equation, &subject, finer.start));
         }
         close_equation(&finer);
     } else {

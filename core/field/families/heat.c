@@ -17,6 +17,7 @@
    of Lie Groups to Differential Equations (1993), ex. 2.41; the frame is built as theirs for Burgers'
    equation, whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
 #include "core/field/families/between_ends.h"
+#include "core/functions/functions.h"
 
 #include "core/field/families/family.h"
 
@@ -32,7 +33,7 @@ double gm_heat_factor(const struct gm_framed *framed, bool fixed, double x, doub
 {
     const double lambda = framed->lambda, passed = t - framed->line.begin;
     const double original = fixed ? x - lambda * passed : x;
-    return exp(-lambda / (4 * framed->viscosity) * (2 * original + lambda * passed));
+    return gm_exp(-lambda / (4 * framed->viscosity) * (2 * original + lambda * passed));
 }
 
 static enum gm_status ordinary(const struct gm_ends_step *step, struct gm_progress *progress)
@@ -49,9 +50,9 @@ static enum gm_status by_boosts(const struct gm_ends_step *step, struct gm_progr
 {
     const double nu = step->framed->viscosity, h = step->h, k = step->k, *u = step->u, r = nu * k / (h * h);
     for (size_t j = 1; j + 1 < step->points; j++) {
-        const double a = nu / h * log(u[j + 1] / u[j - 1]);
+        const double a = nu / h * gm_log(u[j + 1] / u[j - 1]);
         const double away = a / (4 * nu) * (2 * step->sigma + a * k);
-        step->out[j] = exp(away) * (u[j] + 2 * r * (sqrt(u[j + 1]) * sqrt(u[j - 1]) - u[j]));
+        step->out[j] = gm_exp(away) * (u[j] + 2 * r * (sqrt(u[j + 1]) * sqrt(u[j - 1]) - u[j]));
     }
     progress->evaluations++;
     return GM_OK;
@@ -61,11 +62,11 @@ static enum gm_status by_projections(const struct gm_ends_step *step, struct gm_
 {
     const double nu = step->framed->viscosity, h = step->h, k = step->k, *u = step->u;
     for (size_t j = 1; j + 1 < step->points; j++) {
-        const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
+        const double right = gm_log(u[j + 1] / u[j]), left = gm_log(u[j - 1] / u[j]);
         const double a = nu / h * (right - left), p = 2 * nu / (h * h) * (right + left), m = 1 - p * k;
         const double arrival = step->sigma + a * k;
         const double away = a * (2 * step->sigma + a * k) + p * arrival * arrival / m;
-        step->out[j] = u[j] * exp(away / (4 * nu)) / sqrt(m);
+        step->out[j] = u[j] * gm_exp(away / (4 * nu)) / sqrt(m);
     }
     progress->evaluations++;
     return GM_OK;
@@ -82,7 +83,7 @@ static struct gm_event carry(const struct gm_framed *framed, const struct gm_poi
     const double power = b * (2 * event.x + b * event.t) + p * x * x / m;
     return (struct gm_event){.t = s * s * event.t / m,
                              .x = s * x / m,
-                             .u = event.u * exp(-power / (4 * framed->viscosity)) * sqrt(m)};
+                             .u = event.u * gm_exp(-power / (4 * framed->viscosity)) * sqrt(m)};
 }
 
 /* The boost that makes both neighbours equal, of schemes without frames too, and of those that preserve projections the
@@ -90,7 +91,7 @@ static struct gm_event carry(const struct gm_framed *framed, const struct gm_poi
 static bool find(const struct gm_problem *problem, const struct gm_scheme *scheme, double k, const double *u,
                  size_t j, struct gm_point_symmetry *frame)
 {
-    const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
+    const double right = gm_log(u[j + 1] / u[j]), left = gm_log(u[j - 1] / u[j]);
     const double nu = gm_framed_of(problem)->viscosity, h = problem->line.dx;
     *frame = (struct gm_point_symmetry){
         .boost = nu / h * (right - left),

@@ -7,64 +7,67 @@
    T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018). */
 #include <math.h>
 
+#include "core/basics.h"
 #include "core/field/problems/problems.h"
-#include "core/linear/sine.h"
+#include "core/functions/functions.h"
+#include "core/functions/rows.h"
 
 static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
 static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
 const struct gm_form gm_form_of_waves = {.dimension = 3, .m = m, .k = k};
 
-/* sin x / x and its derivative; series where the quotient would cancel */
-static double sinc(double x)
-{
-    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
-}
-
-static double sinc_slope(double x)
-{
-    return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (cos(x) - sin(x) / x) / x;
-}
-
 static double potential(const struct gm_problem *problem, double u)
 {
     (void)problem;
-    return 1 - cos(u);
+    return 1 - gm_cos(u);
 }
 
 static double curvature(const struct gm_problem *problem, double u)
 {
     (void)problem;
-    return cos(u);
+    return gm_cos(u);
 }
 
 static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
 {
     (void)problem;
-    gm_sines(u, slope, count);
+    gm_function_rows()->sin(slope, u, false, u, false, count);
 }
 
-/* -(cos a - cos b) / (a - b) */
-static double quotient(const struct gm_problem *problem, double a, double b)
+/* With m = (a + b)/2 and d = (a - b)/2, -(cos a - cos b)/(a - b) = sin m sinc d, and its derivative in a. Series
+   where sinc d = sin d / d and its derivative would cancel. */
+GM_CLONES static void products(const double *restrict half, const double *restrict sine,
+                               const double *restrict cosine, double *restrict quotient,
+                               double *restrict slope, size_t count)
 {
-    (void)problem;
-    return sin((a + b) / 2) * sinc((a - b) / 2);
+    for (size_t i = 0; i < count; i++) {
+        const double d = half[i], ratio = sine[count + i] / d, sinc = fabs(d) < 1e-4 ? 1 - d * d / 6 : ratio,
+                     change = fabs(d) < 1e-3 ? -d / 3 + d * d * d / 30 : (cosine[count + i] - ratio) / d;
+        quotient[i] = sine[i] * sinc;
+        slope[i] = (cosine[i] * sinc + sine[i] * change) / 2;
+    }
 }
 
-static double quotient_slope(const struct gm_problem *problem, double a, double b)
+static void quotients(const struct gm_problem *problem, const double *a, const double *b, double *quotient,
+                      double *slope, size_t count)
 {
+    enum { BLOCK = 64 };
     (void)problem;
-    const double mean = (a + b) / 2, half = (a - b) / 2;
-    return (cos(mean) * sinc(half) + sin(mean) * sinc_slope(half)) / 2;
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t size = count - first < BLOCK ? count - first : BLOCK;
+        double angles[2 * BLOCK], sine[2 * BLOCK], cosine[2 * BLOCK], unused[BLOCK];
+        for (size_t i = 0; i < size; i++) {
+            angles[i] = (a[first + i] + b[first + i]) / 2;
+            angles[size + i] = (a[first + i] - b[first + i]) / 2;
+        }
+        gm_function_rows()->sine_and_cosine(sine, cosine, angles, 2 * size);
+        products(angles + size, sine, cosine, quotient + first, slope ? slope + first : unused, size);
+    }
 }
 
 static double none(const struct gm_problem *problem, double u)
 {
     return (void)problem, (void)u, 0;
-}
-
-static double none_between(const struct gm_problem *problem, double a, double b)
-{
-    return (void)problem, (void)a, (void)b, 0;
 }
 
 static void no_slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
@@ -76,20 +79,28 @@ static void no_slopes(const struct gm_problem *problem, const double *u, double 
     }
 }
 
+static void no_quotients(const struct gm_problem *problem, const double *a, const double *b, double *quotient,
+                         double *slope, size_t count)
+{
+    (void)b;
+    no_slopes(problem, a, quotient, count);
+    if (slope) {
+        no_slopes(problem, a, slope, count);
+    }
+}
+
 static const struct gm_wave sine_gordon = {
     .potential = potential,
     .curvature = curvature,
     .slopes = slopes,
-    .quotient = quotient,
-    .quotient_slope = quotient_slope,
+    .quotients = quotients,
 };
 
 static const struct gm_wave linear = {
     .potential = none,
     .curvature = none,
     .slopes = no_slopes,
-    .quotient = none_between,
-    .quotient_slope = none_between,
+    .quotients = no_quotients,
 };
 
 const struct gm_problem gm_problem_sine_gordon = {

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/linear/sine.h"
 #include "core/tape.h"
 
 struct own {
@@ -129,7 +128,6 @@ static void open_problem(struct gm_arena *arena, void *data)
     gm_user_line_tape(&self->line, &self->function, &system->energy, 1, n, values);
     gm_user_line_tape(&self->line, &self->gradient, system->rates, n, n, values);
     gm_user_line_tape(&self->line, &self->hessian, form->hessian, n * n, n, values);
-    self->gradient.sines = gm_sines; /* no other engine computes forms */
     gm_user_line_open(&self->line, form->formulas.start, n, form->formulas.exact, values);
     double *all = gm_arena_take(arena, system->graph.count + (size_t)1, sizeof *all);
     gm_formula_evaluate(&system->graph, system->graph.count, values, all);

@@ -127,12 +127,22 @@ static double quotient_slope(const struct gm_problem *problem, double a, double 
     return mean_of(&own_of(problem)->curvature, a, b, own_of(problem)->brief ? 1 : 2, true, &size);
 }
 
+static void quotients(const struct gm_problem *problem, const double *a, const double *b, double *quotients,
+                      double *slopes, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        quotients[i] = quotient(problem, a[i], b[i]);
+        if (slopes) {
+            slopes[i] = quotient_slope(problem, a[i], b[i]);
+        }
+    }
+}
+
 static const struct gm_wave formulas = {
     .potential = potential,
     .curvature = curvature,
     .slopes = slopes,
-    .quotient = quotient,
-    .quotient_slope = quotient_slope,
+    .quotients = quotients,
 };
 
 /* Returns the problem whose loops compute V = 0 or V = 1 - cos(u); NULL for other potentials. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kind of flows on complexes: its families of schemes and their certification. */
 #include "core/flow/flow.h"
+#include "core/functions/functions.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -105,7 +106,7 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
     }
     close_flow(flow);
     ladder->count = made ? LADDER : 0;
-    certificate->order = made ? log(ladder->error[0] / ladder->error[LADDER - 1]) / log(4) : NAN;
+    certificate->order = made ? gm_log(ladder->error[0] / ladder->error[LADDER - 1]) / gm_log(4) : NAN;
     certificate->order_problem = "torus";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
 }

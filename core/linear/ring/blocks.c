@@ -11,6 +11,8 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/linear/eigenvalues.h"
 
 enum { MOST = GM_RING_BLOCKS_MOST };
@@ -22,7 +24,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
     for (size_t p = 0; p < n; p++) {
         size_t best = p;
         for (size_t i = p + 1; i < n; i++) {
-            best = cabs(a[i][p]) > cabs(a[best][p]) ? i : best;
+            best = gm_cabs(a[i][p]) > gm_cabs(a[best][p]) ? i : best;
         }
         for (size_t j = 0; j < n; j++) {
             const double complex held = a[p][j];
@@ -34,7 +36,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
             b[p][j] = b[best][j];
             b[best][j] = held;
         }
-        if (!(cabs(a[p][p]) > 0)) {
+        if (!(gm_cabs(a[p][p]) > 0)) {
             return false;
         }
         for (size_t i = 0; i < n; i++) {
@@ -93,7 +95,7 @@ static bool find_left(size_t n, const double *b, const double *c, double complex
             return false;
         }
         for (size_t i = 0; i < n; i++) {
-            size = hypot(size, cabs(x[i][0]));
+            size = gm_hypot(size, gm_cabs(x[i][0]));
         }
         for (size_t i = 0; i < n; i++) {
             left[i] = x[i][0] /= size;
@@ -134,18 +136,18 @@ bool gm_ring_blocks_make(struct gm_ring_blocks *blocks, size_t count, size_t n, 
         struct gm_ring_block_root *root = &blocks->root[blocks->roots++];
         root->value = real[k] + I * imaginary[k];
         root->real = imaginary[k] == 0;
-        const bool inside = cabs(root->value) < 1;
+        const bool inside = gm_cabs(root->value) < 1;
         const double complex damped = inside ? root->value : 1 / root->value;
-        const double needed = -42 / log(cabs(damped)); /* e^-42 = 6e-19 */
+        const double needed = -42 / gm_log(gm_cabs(damped)); /* e^-42 = 6e-19 */
         root->reach = needed < (double)count ? (size_t)needed + 1 : count;
-        root->closed = root->reach == count ? 1 / (1 - cpow(damped, (double)count)) : 1;
-        if (!(cabs(root->closed) < 1e4)) {
+        root->closed = root->reach == count ? 1 / (1 - gm_cpow(damped, (double)count)) : 1;
+        if (!(gm_cabs(root->closed) < 1e4)) {
             return false;
         }
         for (size_t i = 0; i < n; i++) {
             root->left[i] = lefts[k][i];
             root->right[i] = inverse[i][k] * (root->real ? 1 : 2);
-            if (!(cabs(root->right[i]) < 1e4 * (1 + fabs(1 / c[0])))) {
+            if (!(gm_cabs(root->right[i]) < 1e4 * (1 + fabs(1 / c[0])))) {
                 return false;
             }
         }
@@ -163,7 +165,7 @@ GM_CLONES static void add(double *restrict to, const double *restrict from, doub
 /* Replaces u' g by e, real and imaginary parts in place, with e_i at index i. */
 static void sweep(const struct gm_ring_block_root *root, size_t count, double *re, double *im)
 {
-    const bool inside = cabs(root->value) < 1;
+    const bool inside = gm_cabs(root->value) < 1;
     const double complex step = inside ? root->value : 1 / root->value;
     const double s = creal(step), t = cimag(step);
     double x = 0, y = 0;
@@ -199,7 +201,7 @@ static void sweep(const struct gm_ring_block_root *root, size_t count, double *r
 
 static void sweep_real(const struct gm_ring_block_root *root, size_t count, double *e)
 {
-    const bool inside = cabs(root->value) < 1;
+    const bool inside = gm_cabs(root->value) < 1;
     const double s = creal(inside ? root->value : 1 / root->value);
     double x = 0;
     for (size_t k = 0; k < root->reach; k++) {

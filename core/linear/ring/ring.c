@@ -15,13 +15,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
+
 /* Returns the number of terms of 1 + r + r^2 + ... that count; all of them if |r| is 1, or rounded to it. */
 static size_t terms(double magnitude, size_t count)
 {
     if (magnitude < 1e-18) {
         return 1;
     }
-    const double needed = magnitude < 1 ? ceil(-42 / log(magnitude)) : INFINITY; /* e^-42 = 6e-19 */
+    const double needed = magnitude < 1 ? ceil(-42 / gm_log(magnitude)) : INFINITY; /* e^-42 = 6e-19 */
     return needed < (double)count ? (size_t)needed : count;
 }
 
@@ -42,7 +45,7 @@ void gm_ring_solve(const struct gm_ring *ring, double *b)
         return;
     }
     const size_t reach = terms(fabs(r), n);
-    const double closed = reach == n ? 1 / (1 - pow(r, (double)n)) : 1;
+    const double closed = reach == n ? 1 / (1 - gm_pow(r, (double)n)) : 1;
     double before = 0;
     for (size_t i = n - reach; i < n; i++) {
         before = b[i] + r * before;
@@ -91,20 +94,20 @@ bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, dou
                         double complex difference, double h)
 {
     /* ((1+z)/(z-1))^power = -ratio; with w one of the power-th roots, z = (w+1)/(w-1) */
-    const double complex a = mean / pow(2, power), d = difference / pow(h, power);
+    const double complex a = mean / gm_pow(2, power), d = difference / gm_pow(h, power);
     const double complex ratio = -d / a;
     *ring = (struct gm_ring_roots){.count = count, .scale = a + d, .number = power};
-    const double size = pow(cabs(ratio), 1.0 / power);
+    const double size = gm_pow(gm_cabs(ratio), 1.0 / power);
     for (int k = 0; k < power; k++) {
-        const double turn = (carg(ratio) + 2 * M_PI * k) / power;
-        const double complex w = size * (cos(turn) + I * sin(turn));
-        const double distance = cabs(w - 1);
+        const double turn = (gm_carg(ratio) + 2 * M_PI * k) / power;
+        const double complex w = size * (gm_cos(turn) + I * gm_sin(turn));
+        const double distance = gm_cabs(w - 1);
         ring->roots[k] = (w + 1) / (w - 1);
-        if (!(distance > 1e-12) || !(fabs(cabs(ring->roots[k]) - 1) > 1e-14)) {
+        if (!(distance > 1e-12) || !(fabs(gm_cabs(ring->roots[k]) - 1) > 1e-14)) {
             return false;
         }
     }
-    return cabs(ring->scale) > 0;
+    return gm_cabs(ring->scale) > 0;
 }
 
 /* x := b + r x */
@@ -122,14 +125,14 @@ void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *i
     size_t shift = 0;
     double complex factor = over;
     for (int k = 0; k < ring->number; k++) {
-        const bool inside = cabs(ring->roots[k]) < 1;
+        const bool inside = gm_cabs(ring->roots[k]) < 1;
         /* inside: (1 - root/z) z, forwards; outside: -root (1 - z/root), backwards */
         const double complex root = inside ? ring->roots[k] : 1 / ring->roots[k];
         const double r_re = creal(root), r_im = cimag(root);
-        const size_t reach = terms(cabs(root), n);
+        const size_t reach = terms(gm_cabs(root), n);
         double complex closed = 1;
         if (reach == n) {
-            closed = 1 / (1 - cpow(root, (double)n));
+            closed = 1 / (1 - gm_cpow(root, (double)n));
         }
         double x_re = 0, x_im = 0;
         if (inside) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kind of fields on moving meshes: its families of schemes and their certification. */
+#include "core/functions/functions.h"
 #include "core/mesh/moving_mesh.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static double measure_order(const struct gm_mesh_subject *subject, double dt, st
             change = fmax(change, fabs(state[k] + (t_before - run->t) * state[half + k] - before[k]));
         }
         if (i > 0 && change > round_off) {
-            order = i > 1 ? log2(previous / change) : NAN;
+            order = i > 1 ? gm_log2(previous / change) : NAN;
             ladder->dt[ladder->count] = until / (double)steps;
             ladder->error[ladder->count++] = change;
         }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/differences.h"
 #include "core/mesh/nodes.h"
 #include "core/theory/certify.h"
@@ -26,8 +27,8 @@ static void profile(const void *unused, const double *x, size_t count, double *v
     (void)unused;
     for (size_t i = 0; i < count; i++) {
         const double from_middle = gamma * (x[i] - length / 2);
-        value[i] = 4 * atan(exp(from_middle));
-        slope[i] = 2 * gamma / cosh(from_middle);
+        value[i] = 4 * gm_atan(gm_exp(from_middle));
+        slope[i] = 2 * gamma / gm_cosh(from_middle);
         rate[i] = -velocity * slope[i];
     }
 }
@@ -50,9 +51,9 @@ static void places(const struct gm_mesh_map *unused, const double *label, size_t
     const double amplitude = 0.8, frequency = 1.1, phase = frequency * t + 0.3;
     (void)unused;
     for (size_t i = 0; i < count; i++) {
-        const double shape = amplitude * sin(M_PI * label[i] / length);
-        x[i] = label[i] + shape * sin(phase);
-        rate[i] = frequency * shape * cos(phase);
+        const double shape = amplitude * gm_sin(M_PI * label[i] / length);
+        x[i] = label[i] + shape * gm_sin(phase);
+        rate[i] = frequency * shape * gm_cos(phase);
     }
 }
 

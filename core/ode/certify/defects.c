@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/linear/differences.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/members.h"
@@ -110,7 +111,7 @@ static struct defect of_derivative(const struct gm_subject *subject, double dt, 
             for (size_t row = 0; row < n; row++) {
                 error = fmax(error, gm_distance(derivative.at[row], closer.at[row], n));
             }
-            const double stretch = degree * (double)n * pow(fmax(1, derivative.largest), degree - 1);
+            const double stretch = degree * (double)n * gm_pow(fmax(1, derivative.largest), degree - 1);
             found.clear = size > 10 * stretch * error;
         }
     }
@@ -193,7 +194,7 @@ static double form_defect(const struct derivative *derivative)
 
 static double conformal_form_defect(const struct derivative *derivative)
 {
-    return areas_defect(derivative, exp(-gm_subject_friction(derivative->subject) * derivative->dt));
+    return areas_defect(derivative, gm_exp(-gm_subject_friction(derivative->subject) * derivative->dt));
 }
 
 static double bracket_defect(const struct derivative *derivative)
@@ -276,7 +277,7 @@ static struct defect defect_at(const struct gm_subject *subject, enum gm_claim c
 static double decide(const struct gm_subject *subject, enum gm_claim claim, double tolerance)
 {
     enum { SHORTER = 2, POWERS = 5 };
-    const double steepest = pow(4, (subject->scheme->order ? subject->scheme->order : 8) + POWERS),
+    const double steepest = gm_pow(4, (subject->scheme->order ? subject->scheme->order : 8) + POWERS),
                  roundoff = 1e-15;
     double dt = subject->scheme->family->adaptive ? subject->dt / 4 : subject->dt;
     for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
@@ -326,7 +327,7 @@ double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *k
 {
     double near[MOST];
     for (size_t c = 0; c < subject->problem.n; c++) {
-        near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * sin((double)(3 * c + 1));
+        near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * gm_sin((double)(3 * c + 1));
     }
     return change_of(kept, subject->start, near);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kind of ordinary differential equations: its facets, the families of schemes that need them, and their
    certificates: every subject that fits a scheme is measured. */
+#include "core/functions/functions.h"
 #include "core/ode/ode.h"
 
 #include <limits.h>
@@ -204,7 +205,7 @@ static bool is_even(const struct gm_subject *subject)
     double y[GM_SUBJECT_COMPONENTS], turned[GM_SUBJECT_COMPONENTS];
     for (int k = 1; k <= 4; k++) {
         for (size_t c = 0; c < subject->problem.n; c++) {
-            y[c] = subject->start[c] + 0.1 * subject->scale * sin(k * (double)(3 * c + 1));
+            y[c] = subject->start[c] + 0.1 * subject->scale * gm_sin(k * (double)(3 * c + 1));
             turned[c] = c < subject->problem.n / 2 ? y[c] : -y[c];
         }
         const double there = gm_energy(&subject->problem, y), back = gm_energy(&subject->problem, turned);

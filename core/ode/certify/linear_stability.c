@@ -4,6 +4,8 @@
        R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
 #include "core/ode/certify/linear_stability.h"
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/linear/complex_matrix.h"
 
 #include <complex.h>
@@ -40,7 +42,7 @@ static double grown(const struct gm_problem *problem, const struct gm_scheme *sc
         if (gm_run_advance(run, steps) == GM_OK) {
             size = 0;
             for (size_t i = 0; i < problem->n; i++) {
-                size = hypot(size, gm_run_state(run)[i]);
+                size = gm_hypot(size, gm_run_state(run)[i]);
                 end[i] = gm_run_state(run)[i];
             }
         }
@@ -64,7 +66,7 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, in
         const double matrix[9] = {re, -im, 0, im, re, 0, 0, 0, 0}, y[3] = {1, 0, 0};
         struct gm_problem problem = gm_problem_linear;
         problem.parameters = matrix;
-        return pow(grown(&problem, scheme, 1, y, steps, ends[0]), 1 / (double)steps);
+        return gm_pow(grown(&problem, scheme, 1, y, steps, ends[0]), 1 / (double)steps);
     }
     /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its columns */
     for (int k = 0; k < 2; k++) {
@@ -124,7 +126,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
         for (int i = 0; i < steps->steps; i++) {
             product *= stability_function(row, gm_composition_fraction(steps, i) * z);
         }
-        return cabs(product);
+        return gm_cabs(product);
     }
     if (gm_scheme_is_composition(scheme)) {
         const struct gm_substeps *substeps = scheme->coefficients;

@@ -6,6 +6,7 @@
 
 #include <gsl/gsl_errno.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
@@ -121,10 +122,10 @@ static double measure_by_tolerance(const struct gm_subject *subject)
         return NAN;
     }
     for (int i = 0; i < LADDER; i++) {
-        const struct gm_settings settings = {.tolerance = pow(10, -4 - 2 * i)};
+        const struct gm_settings settings = {.tolerance = gm_pow(10, -4 - 2 * i)};
         const struct trial trial = make_trial(subject, &settings, until / TIMES, 1, exact);
-        x[i] = log(subject->scheme->family->by_tolerance ? trial.step : settings.tolerance);
-        e[i] = log(trial.error);
+        x[i] = gm_log(subject->scheme->family->by_tolerance ? trial.step : settings.tolerance);
+        e[i] = gm_log(trial.error);
     }
     return slope(x, e, LADDER);
 }
@@ -157,7 +158,7 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
     /* the highest orders exceed round-off at large steps only */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const int64_t before = between;
-        const double finer = (adaptive ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
+        const double finer = (adaptive ? 8 : span) / TIMES * gm_pow(2, 1 + (double)i / PER_OCTAVE);
         between = lround(finer);
         if (!adaptive && between == before) {
             continue;
@@ -170,8 +171,8 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
             break;
         }
         if (error < ceiling) {
-            x[count] = log(ladder->dt[count] = dt);
-            e[count] = log(ladder->error[count] = error);
+            x[count] = gm_log(ladder->dt[count] = dt);
+            e[count] = gm_log(ladder->error[count] = error);
             ladder->count = (size_t)++count;
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of core/ode/compiled/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
 
-#include "core/ode/kernel/simd.h"
+#include "core/functions/lanes.h"
 
 #include GM_KERNELS
 
@@ -27,5 +27,6 @@ GM_INLINE void K(field)(const real *y, real *f, const void *parameters)
 
 #undef real
 #undef mask
+#undef pattern
 #undef GM_LANES
 #undef K

@@ -8,6 +8,7 @@
        Gautschi                     1          sinc^2(x/2) / sinc(x)    sinc^2(x/2)
    The memory is g(phi q) at the end of the step, which the next one begins with. Hairer, Lubich & Wanner
    (2006), sections XIII.1 to XIII.2. */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 
 enum filter { MOLLIFIED, GAUTSCHI };
@@ -15,7 +16,7 @@ static const enum filter mollified = MOLLIFIED, gautschi = GAUTSCHI;
 
 static double sinc(double x)
 {
-    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : gm_sin(x) / x;
 }
 
 /* phi and a at h omega */
@@ -66,9 +67,9 @@ static struct component *components(const struct gm_task *task, struct gm_member
         double phi, a;
         filters(*(const enum filter *)task->scheme->coefficients, x, &phi, &a);
         list[c] = (struct component){.kick = task->dt / 2 * a,
-                                     .cosine = cos(x),
+                                     .cosine = gm_cos(x),
                                      .sine_over_omega = task->dt * sinc(x),
-                                     .omega_sine = omega * sin(x)};
+                                     .omega_sine = omega * gm_sin(x)};
     }
     return list;
 }

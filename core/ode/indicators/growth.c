@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/ode.h"
@@ -113,7 +114,7 @@ static void record(struct gm_growth *growth, int64_t steps)
 static void add(struct gm_growth *growth, double step, double length)
 {
     struct sums *sums = &growth->sums;
-    const double ratio = log(length);
+    const double ratio = gm_log(length);
     sums->growth += ratio;
     sums->moment += (sums->time + step / 2) * ratio;
     sums->time += step;
@@ -151,7 +152,7 @@ static double orthonormalise(const struct gm_growth *growth)
         for (size_t c = 0; c < size && square > 0; c++) {
             v[c] /= sqrt(square);
         }
-        growth->logarithms[k] += log(square) / 2;
+        growth->logarithms[k] += gm_log(square) / 2;
         first = k == 0 ? sqrt(square) : first;
     }
     return first;

@@ -7,6 +7,7 @@
 
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/kind.h"
 #include "core/linear/eigenvalues.h"
 #include "core/linear/settled.h"
@@ -259,7 +260,7 @@ static void find_multipliers(struct search *search)
     for (size_t i = 1; i < orbit->count; i++) {
         const double x = re[i], y = im[i];
         size_t at = i;
-        for (; at > 0 && hypot(re[at - 1], im[at - 1]) < hypot(x, y); at--) {
+        for (; at > 0 && gm_hypot(re[at - 1], im[at - 1]) < gm_hypot(x, y); at--) {
             re[at] = re[at - 1];
             im[at] = im[at - 1];
         }
@@ -361,11 +362,11 @@ const char *gm_periodic_kind(const struct gm_periodic *orbit)
     for (size_t i = 0; i < orbit->count; i++) {
         size_t nearer = 0;
         for (size_t k = 0; k < orbit->count; k++) { /* those nearest to 1 are those of the structure */
-            const double one = hypot(re[k] - 1, im[k]), own = hypot(re[i] - 1, im[i]);
+            const double one = gm_hypot(re[k] - 1, im[k]), own = gm_hypot(re[i] - 1, im[i]);
             nearer += one < own || (one == own && k < i);
         }
-        const double modulus = hypot(re[i], im[i]);
-        volume += log(modulus);
+        const double modulus = gm_hypot(re[i], im[i]);
+        volume += gm_log(modulus);
         if (nearer < orbit->by_structure) {
             continue;
         }

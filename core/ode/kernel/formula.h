@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The operations of formulas over the lane type, for kernels that are written from formulas: K(value_SIN)(a,
-   b). Each is the C of core/expression/operations.def, which the interpreter uses too, lane by lane; one
-   operation if registers have it. Included for each pass. */
+/* The operations of formulas over the lane type, for kernels that are written from formulas: K(sin)(a) of
+   core/functions, K(value_MOD)(a, b) of others. Those are the C of core/expression/operations.def, which the
+   interpreter uses too, lane by lane; one operation if registers have it. Included for each pass. */
 #include "core/expression/arithmetic.h"
+
+#include "core/functions/pass.h"
 
 /* With registers they are functions: inlined, lane by lane, they take most of a compiler's time. */
 #undef GM_OF_LIBRARY

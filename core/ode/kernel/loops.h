@@ -76,8 +76,4 @@ bool gm_compiled_has(size_t components);
 /* Writes f(y) of the active components of m members, for every form in which the problem gives it. */
 void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
 
-/* The best instruction set of this machine and build: an index into gm_ode_of(problem)->loops. */
-enum gm_isa gm_isa_best(void);
-const char *gm_isa_name(enum gm_isa isa);
-
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 
@@ -189,7 +190,7 @@ static void find_step(const struct search *search, const double *jacobian, const
     double j[4], u[2];
     for (size_t row = 0; row < 2; row++) {
         const double *entry = jacobian + 2 * row,
-                     length = hypot(entry[0] * search->size[0], entry[1] * search->size[1]);
+                     length = gm_hypot(entry[0] * search->size[0], entry[1] * search->size[1]);
         const bool none = length == 0 && f[row] == 0; /* the component is 0 here, and does not change */
         u[row] = none ? 0 : f[row] / length;
         for (size_t k = 0; k < 2; k++) {
@@ -329,7 +330,7 @@ static bool is_before(const struct search *search, const double *a, const double
    Newton's method finds another. It finds the same one if that is isolated. */
 static bool is_on_curve(const struct search *search, const struct gm_equilibrium *equilibrium)
 {
-    const double *j = equilibrium->jacobian, *row = hypot(j[0], j[1]) > hypot(j[2], j[3]) ? j : j + 2,
+    const double *j = equilibrium->jacobian, *row = gm_hypot(j[0], j[1]) > gm_hypot(j[2], j[3]) ? j : j + 2,
                  null[] = {row[1], -row[0]};
     const double largest = fmax(fabs(null[0]) / search->size[0], fabs(null[1]) / search->size[1]);
     for (double sign = -1; sign <= 1; sign += 2) {

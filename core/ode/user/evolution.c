@@ -14,6 +14,8 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/linear/fourier.h"
 #include "core/model/equations.h"
 #include "core/ode/kernel/loops.h"
@@ -219,8 +221,8 @@ static double complex factor_of(const struct own *self, size_t order, size_t mod
         }
         return alternating && order % 2 ? 0 : factor;
     }
-    const double half = sin(angle / 2), twice = -4 * half * half / (dx * dx);
-    const double complex first = alternating ? 0 : I * sin(angle) / dx;
+    const double half = gm_sin(angle / 2), twice = -4 * half * half / (dx * dx);
+    const double complex first = alternating ? 0 : I * gm_sin(angle) / dx;
     const double complex factors[ORDERS] = {1, first, twice, first * twice, twice * twice};
     return factors[order];
 }
@@ -372,7 +374,7 @@ static bool is_mirrored(const struct own *self, const double *signs)
     for (size_t trial = 0; trial < TRIALS; trial++) {
         for (size_t k = 0; k < self->inputs; k++) {
             const double sign = k < n * ORDERS ? signs[k % n] * (k / n % 2 ? -1 : 1) : 1;
-            here[k] = 0.6 + 0.35 * sin(1 + 7 * (double)k + 2.3 * (double)trial);
+            here[k] = 0.6 + 0.35 * gm_sin(1 + 7 * (double)k + 2.3 * (double)trial);
             there[k] = sign * here[k];
         }
         gm_tape_values(&self->rates, here, rate, 1);
@@ -384,7 +386,7 @@ static bool is_mirrored(const struct own *self, const double *signs)
         }
     }
     for (size_t i = 0; i < gm_modes_half(self->line.points) * n; i++) {
-        if (fabs(cimag(self->masses[i])) > 1e-9 * cabs(self->masses[i])) {
+        if (fabs(cimag(self->masses[i])) > 1e-9 * gm_cabs(self->masses[i])) {
             return false;
         }
     }
@@ -558,7 +560,7 @@ static bool has_masses(const struct own *self, struct gm_fault *fault)
 {
     for (size_t i = 0; i < gm_modes_half(self->line.points) * self->fields; i++) {
         const size_t mode = i / self->fields;
-        if (!(cabs(self->masses[i]) > 1e-12)) {
+        if (!(gm_cabs(self->masses[i]) > 1e-12)) {
             return gm_fail(fault, 0,
                            "the mass of %.60s is 0 for the wave of wave number %.6g, whose rate is not known",
                            self->evolution->system->variables[i % self->fields].name,

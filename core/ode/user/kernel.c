@@ -48,6 +48,9 @@ static bool spell(enum gm_operation operation, const char *words[3])
         {GM_OPERATION_BELOW, {"K(below)(", ", ", ")"}},
         {GM_OPERATION_SIGN, {"K(sign)(", NULL, ")"}},
         {GM_OPERATION_CHOSEN, {"K(chosen)(", ", ", ")"}},
+#define GM_FORMULA_FUNCTION(constant, name, arity)                                                           \
+    {GM_OPERATION_##constant, {"K(" #name ")(", (arity) == 2 ? ", " : NULL, ")"}},
+#include "core/functions/functions.def"
     };
     static const char *const others[GM_OPERATIONS] = {
 #define GM_OPERATION(constant, ...) [GM_OPERATION_##constant] = "K(value_" #constant ")(",

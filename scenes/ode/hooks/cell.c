@@ -3,6 +3,7 @@
    it at two distances and give the derivative of the flow by extrapolated differences. */
 #include <math.h>
 
+#include "core/functions/functions.h"
 #include "scenes/common/rows.h"
 #include "scenes/common/system/hook.h"
 
@@ -38,9 +39,9 @@ static double log_volume(const struct gm_view *view)
             d[r][c] = (8 * (row[0] - row[1]) - (row[2] - row[3])) / (12 * small);
         }
     }
-    return log(d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
-               d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
-               d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]));
+    return gm_log(d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+                  d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+                  d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]));
 }
 
 static const struct gm_observable observables[] = {

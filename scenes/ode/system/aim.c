@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A start from a point of the picture: the formulas of a body are solved for the coordinates. */
+#include "core/functions/functions.h"
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>
@@ -69,7 +70,7 @@ static bool choose_body(struct aim *aim)
     gm_tape_values(&aim->sight->tape, aim->variables, aim->numbers, 1);
     for (size_t i = 0; i < aim->sight->bodies; i++) {
         const double apart =
-            hypot(aim->target[0] - aim->numbers[2 * i], aim->target[1] - aim->numbers[2 * i + 1]);
+            gm_hypot(aim->target[0] - aim->numbers[2 * i], aim->target[1] - aim->numbers[2 * i + 1]);
         if (!aim->sight->fixed[i] && apart < nearest) {
             nearest = apart;
             aim->body = i;

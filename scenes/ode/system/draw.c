@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"
@@ -184,7 +185,7 @@ static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const cha
     const double size = fmax(fabs(low), fabs(high)), round_off = 1e-12 * size;
     /* a state at rest has no width of its own */
     const double width = high - low > round_off ? 1.06 * (high - low) : size > 0 ? size : 1;
-    const double step = exp2(floor(log2(width))) / 8, margin = (width - (high - low)) / 2;
+    const double step = ldexp(1, ilogb(width)) / 8, margin = (width - (high - low)) / 2;
     *axis = (struct gm_axis){.label = label ? gm_typeset(picture, label) : "",
                              .low = step * floor((low - margin) / step),
                              .high = step * ceil((high + margin) / step)};

@@ -208,7 +208,7 @@ void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *si
         }
         const double size = fmax(reach[0], reach[1]);
         for (int k = 0; k < DOUBLINGS; k++) {
-            const double half = size * exp2(k);
+            const double half = ldexp(size, k);
             const struct gm_window box = {{middle[0] - half, middle[1] - half},
                                           {middle[0] + half, middle[1] + half}};
             struct gm_window found = {{1, 1}, {0, 0}};

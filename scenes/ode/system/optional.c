@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/curve.h"
 #include "core/model/invariants.h"
 #include "core/ode/backward/modified_energy.h"
@@ -313,7 +314,7 @@ static double log_volume(const struct gm_view *view)
 static double volume_error(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return expm1(values.log_volume - values.divergence);
+    return gm_expm1(values.log_volume - values.divergence);
 }
 
 /* Writes the Lyapunov exponents in descending order, and returns their number; 0: not known. */
@@ -453,7 +454,8 @@ static double loop_action_error(const struct gm_view *view)
 {
     const struct gm_curve_action before = loop_at(view, view->start), now = loop_at(view, view->state);
     const double roundoff = 1e-12,
-                 wanted = resolved(&before, most) * exp(-friction_of(view->problem) * (view->t - view->t0)),
+                 wanted =
+                     resolved(&before, most) * gm_exp(-friction_of(view->problem) * (view->t - view->t0)),
                  divisor = fabs(wanted) <= roundoff * now.magnitude ? now.magnitude : wanted,
                  error = resolved(&now, most) - wanted;
     return error == 0 ? 0 : error / divisor;

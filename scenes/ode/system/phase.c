@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The phase portrait: arrows of the field's direction, nullclines, equilibria. */
+#include "core/functions/functions.h"
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>
@@ -134,7 +135,7 @@ static void draw_directions(struct gm_picture *picture, struct gm_panel *panel,
     }
     gm_field(problem, places, field, count);
     for (size_t k = 0; k < count; k++) {
-        const double u = field[k] / unit[0], v = field[count + k] / unit[1], length = hypot(u, v);
+        const double u = field[k] / unit[0], v = field[count + k] / unit[1], length = gm_hypot(u, v);
         if (!(length > 0) || !isfinite(length)) {
             continue;
         }
@@ -161,7 +162,7 @@ static double room_at(const struct gm_panel *panel, const double *point, const s
     double room = fmin(fmin(x, 1 - x), fmin(y, 1 - y));
     for (size_t k = 0; k < portrait->count; k++) {
         const double *at = portrait->equilibria[k].at;
-        room = fmin(room, hypot(x - (at[0] - panel->x.low) / width, y - (at[1] - panel->y.low) / height));
+        room = fmin(room, gm_hypot(x - (at[0] - panel->x.low) / width, y - (at[1] - panel->y.low) / height));
     }
     return room;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shapes of a disc of members. If these carry two tangents, the arc between two of them is a cubic. */
+#include "core/functions/functions.h"
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>
@@ -64,8 +65,8 @@ static void put_edge(const struct gm_lane *lane, size_t pieces, double *points)
             if (s > 0) {
                 const double *along_x = tangent_of(&view, disc[k], disc[0]),
                              *along_y = tangent_of(&view, disc[k], disc[1]);
-                const double leave = cos(a) * along_y[from] - sin(a) * along_x[from],
-                             arrive = cos(b) * along_y[to] - sin(b) * along_x[to];
+                const double leave = gm_cos(a) * along_y[from] - gm_sin(a) * along_x[from],
+                             arrive = gm_cos(b) * along_y[to] - gm_sin(b) * along_x[to];
                 points[2 * i + k] = r * r * (1 + 2 * s) * y[from] + s * s * (3 - 2 * s) * y[to] +
                                     s * r * step * (r * leave - s * arrive);
             }

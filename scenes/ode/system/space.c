@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A user-defined system in space: its surfaces with axes through them, or the box of its range. */
+#include "core/functions/functions.h"
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ static void set_box(struct gm_space *space, const struct gm_seen *seen)
     }
     const bool moves = width > 1e-12 * size;
     width = moves ? 1.06 * width : size > 0 ? size : 1;
-    const double step = exp2(floor(log2(width))) / 8, margin = moves ? 0.03 * width : 0.5 * width;
+    const double step = ldexp(1, ilogb(width)) / 8, margin = moves ? 0.03 * width : 0.5 * width;
     for (size_t k = 0; k < 3; k++) {
         const bool empty = seen->low[k] > seen->high[k];
         const double low = empty ? 0 : seen->low[k], high = empty ? 0 : seen->high[k];

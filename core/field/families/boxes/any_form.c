@@ -32,6 +32,8 @@
 
 #include "core/arena.h"
 #include "core/field/families/family.h"
+#include "core/functions/complex.h"
+#include "core/functions/functions.h"
 #include "core/linear/fourier.h"
 #include "core/linear/iteration.h"
 #include "core/linear/ring/blocks.h"
@@ -921,7 +923,7 @@ static void to_stages(struct work *work, const double *nodes, bool second, doubl
         gm_fourier_forward(work->fourier, work->waves);
         for (size_t mode = 0; mode < points; mode++) {
             const double angle = angle_of(mode, points), slope = angle / work->problem->line.dx;
-            work->waves[mode] *= 2 * mode == points ? cos(M_PI * part) : cexp(I * angle * part);
+            work->waves[mode] *= 2 * mode == points ? gm_cos(M_PI * part) : gm_cexp(I * angle * part);
             work->waves[mode] *= second ? -slope * slope : 1;
         }
         gm_fourier_inverse(work->fourier, work->waves);
@@ -941,7 +943,7 @@ static void node_weights(const struct work *work, size_t mode, double complex *w
         weights[m] = 0;
     }
     if (r == 1) {
-        weights[0] = 2 * mode == points ? 0 : 2 / (cexp(I * angle) + 1);
+        weights[0] = 2 * mode == points ? 0 : 2 / (gm_cexp(I * angle) + 1);
         return;
     }
     if (mode == 0 && r == 2) {
@@ -953,7 +955,7 @@ static void node_weights(const struct work *work, size_t mode, double complex *w
     double complex matrix[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES + 1];
     for (size_t k = 0; k < waves; k++) {
         for (size_t m = 0; m < waves; m++) {
-            matrix[k][m] = cexp(I * angles[k] * c[m * apart]);
+            matrix[k][m] = gm_cexp(I * angles[k] * c[m * apart]);
         }
         matrix[k][waves] = 1;
     }
@@ -974,8 +976,8 @@ static void node_weights(const struct work *work, size_t mode, double complex *w
    free part of the sides is chosen without a part in slopes. */
 static void side_weights(const struct work *work, size_t mode, double complex *weights)
 {
-    const double complex rise = cexp(I * angle_of(mode, work->points)) - work->rest;
-    const bool free = cabs(rise) < 1e-12;
+    const double complex rise = gm_cexp(I * angle_of(mode, work->points)) - work->rest;
+    const bool free = gm_cabs(rise) < 1e-12;
     double complex whole = free ? 0 : rise;
     for (size_t m = 0; m < work->r; m++) {
         weights[m] = free ? 0 : work->weights[m];

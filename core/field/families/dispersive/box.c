@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "core/field/families/two_step.h"
+#include "core/functions/functions.h"
 #include "core/linear/settled.h"
 
 /* Arrays of real parts, each followed by its imaginary parts, after the workspace. */
@@ -87,12 +88,12 @@ static struct equations equations_of(const struct gm_two_step_work *work, const 
                                      double dt, const double *base)
 {
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
-    const double half = pow(0.5, equation->power) / dt;
+    const double half = gm_pow(0.5, equation->power) / dt;
     return (struct equations){
         .work = work,
         .problem = problem,
         .mean = {half * equation->factor[0], half * equation->factor[1]},
-        .difference = equation->dispersion(problem) / (2 * pow(problem->line.dx, equation->power)),
+        .difference = equation->dispersion(problem) / (2 * gm_pow(problem->line.dx, equation->power)),
         .base = base,
     };
 }

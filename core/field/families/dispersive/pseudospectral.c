@@ -14,6 +14,7 @@
 
 #include "core/field/families/family.h"
 #include "core/field/problems/problems.h"
+#include "core/functions/functions.h"
 #include "core/linear/fourier.h"
 
 /* Complex numbers are pairs of doubles, one of each wave 0 .. points / 2. */
@@ -116,8 +117,8 @@ static void prepare(struct work *work, const struct gm_problem *problem, double 
     for (size_t k = 0; k < gm_modes_half(work->points); k++) {
         work->number[k] = 2 * k == work->points ? 0 : 2 * M_PI / period * (double)k;
         const double angle = mu * work->number[k] * work->number[k] * work->number[k] * dt / 2;
-        work->turn[2 * k] = cos(angle);
-        work->turn[2 * k + 1] = sin(angle);
+        work->turn[2 * k] = gm_cos(angle);
+        work->turn[2 * k + 1] = gm_sin(angle);
     }
 }
 

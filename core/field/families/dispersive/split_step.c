@@ -9,13 +9,16 @@
 
 #include "core/field/families/family.h"
 #include "core/field/problems/problems.h"
+#include "core/functions/functions.h"
+#include "core/functions/rows.h"
 #include "core/linear/fourier.h"
 
 struct work {
     size_t points;
     struct gm_fourier *fourier;
-    double *psi;   /* pairs of real and imaginary part */
-    double *turns; /* exp(-i m^2 dt), pairs */
+    double *psi;                      /* pairs of real and imaginary part */
+    double *turns;                    /* exp(-i m^2 dt), pairs */
+    double *angles, *sines, *cosines; /* of the nonlinear part */
 };
 
 static void workspace_close(void *workspace)
@@ -28,7 +31,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 {
     (void)scheme;
     const size_t points = problem->line.points;
-    struct work *work = calloc(1, sizeof *work + 4 * points * sizeof(double));
+    struct work *work = calloc(1, sizeof *work + 7 * points * sizeof(double));
     struct gm_fourier *fourier = work ? gm_fourier_open(points) : NULL;
     if (!fourier) {
         free(work);
@@ -36,6 +39,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     }
     *work = (struct work){.points = points, .fourier = fourier, .psi = (double *)(work + 1)};
     work->turns = work->psi + 2 * points;
+    work->angles = work->turns + 2 * points;
+    work->sines = work->angles + points;
+    work->cosines = work->sines + points;
     return work;
 }
 
@@ -46,11 +52,15 @@ static void turn(double *psi, double re, double im)
     psi[1] = re * psi[1] + im * old;
 }
 
-static void nonlinear_half(double *psi, size_t points, double half)
+static void nonlinear_half(const struct work *work, double half)
 {
-    for (size_t i = 0; i < points; i++) {
-        const double angle = half * (psi[2 * i] * psi[2 * i] + psi[2 * i + 1] * psi[2 * i + 1]);
-        turn(psi + 2 * i, cos(angle), sin(angle));
+    double *psi = work->psi;
+    for (size_t i = 0; i < work->points; i++) {
+        work->angles[i] = half * (psi[2 * i] * psi[2 * i] + psi[2 * i + 1] * psi[2 * i + 1]);
+    }
+    gm_function_rows()->sine_and_cosine(work->sines, work->cosines, work->angles, work->points);
+    for (size_t i = 0; i < work->points; i++) {
+        turn(psi + 2 * i, work->cosines[i], work->sines[i]);
     }
 }
 
@@ -64,19 +74,19 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     for (size_t i = 0; i < points; i++) {
         const double k = 2 * M_PI / period * (i <= points / 2 ? (double)i : (double)i - (double)points);
-        work->turns[2 * i] = cos(k * k * task->dt);
-        work->turns[2 * i + 1] = -sin(k * k * task->dt);
+        work->turns[2 * i] = gm_cos(k * k * task->dt);
+        work->turns[2 * i + 1] = -gm_sin(k * k * task->dt);
         psi[2 * i] = task->y[i];
         psi[2 * i + 1] = task->y[points + i];
     }
     for (int64_t step = 0; step < task->steps; step++) {
-        nonlinear_half(psi, points, half);
+        nonlinear_half(work, half);
         gm_fourier_forward(work->fourier, (double complex *)(void *)psi);
         for (size_t i = 0; i < points; i++) {
             turn(psi + 2 * i, work->turns[2 * i], work->turns[2 * i + 1]);
         }
         gm_fourier_inverse(work->fourier, (double complex *)(void *)psi);
-        nonlinear_half(psi, points, half);
+        nonlinear_half(work, half);
         progress.evaluations++;
         if (!gm_field_stepped(task, &progress, psi, 2 * points)) {
             return progress;

@@ -30,8 +30,10 @@ static double d2(const struct gm_grid1 *grid, const double *level, size_t i)
 static double node_law(const struct gm_problem *problem, const struct gm_levels *levels, double dt, size_t i,
                        double a, double b)
 {
+    double quotient;
+    gm_field_of(problem)->wave->quotients(problem, &a, &b, &quotient, NULL, 1);
     return (levels->next[i] - 2 * levels->now[i] + levels->past[i]) / (dt * dt) -
-           d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
+           d2(&problem->line, levels->now, i) + quotient;
 }
 
 static void measure_nodes(const struct gm_law *of, void *data)
@@ -60,9 +62,10 @@ static double beyond_of_wave(const struct gm_problem *problem, const double *a, 
 {
     const struct gm_wave *wave = gm_field_of(problem)->wave;
     const double middle = (*a + *b) / 2;
-    double slope;
+    double slope, quotient;
     wave->slopes(problem, &middle, &slope, 1);
-    return (*b - *a) / step * (wave->quotient(problem, *a, *b) - slope);
+    wave->quotients(problem, a, b, &quotient, NULL, 1);
+    return (*b - *a) / step * (quotient - slope);
 }
 
 static double beyond_of_dispersive(const struct gm_problem *problem, const double *a, const double *b,

@@ -69,9 +69,10 @@ static void linearised_nodes(const struct base *base, const struct tangent *a)
         const double change = a->now[right_of(i, points)] - 2 * a->now[i] + a->now[left_of(i, points)];
         const double free_motion = 2 * a->now[i] + ratio * ratio * change;
         if (row->average) {
-            const double in_next = wave->quotient_slope(base->law->problem, levels->next[i], levels->past[i]);
-            const double in_past = wave->quotient_slope(base->law->problem, levels->past[i], levels->next[i]);
-            a->next[i] = (free_motion - (1 + dt * dt * in_past) * a->past[i]) / (1 + dt * dt * in_next);
+            const double both[] = {levels->next[i], levels->past[i], levels->next[i]};
+            double quotients[2], slopes[2];
+            wave->quotients(base->law->problem, both, both + 1, quotients, slopes, 2);
+            a->next[i] = (free_motion - (1 + dt * dt * slopes[1]) * a->past[i]) / (1 + dt * dt * slopes[0]);
         } else {
             a->next[i] = free_motion - a->past[i] -
                          dt * dt * wave->curvature(base->law->problem, levels->now[i]) * a->now[i];

@@ -37,25 +37,44 @@ static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_pr
     return GM_OK;
 }
 
-/* c + dt^2 Q(now + c, past) = right, from the guess c; NaN if Newton's method does not settle */
-static double solve_node(const struct gm_problem *problem, double square, double past, double now,
-                         double right, double c, unsigned long *iterations)
+enum { NODES = 64 }; /* that are solved beside each other */
+
+/* Solves c + dt^2 Q(now + c, past) = right by Newton's method for at most NODES nodes, each until it settles, from
+   the guesses c; NaN where it does not. */
+static void solve_nodes(const struct gm_problem *problem, double square, const double *past,
+                        const double *now, const double *right, double *c, size_t count,
+                        unsigned long *iterations)
 {
     enum { MOST = 50 };
     const struct gm_wave *wave = gm_field_of(problem)->wave;
-    double last = INFINITY;
-    for (int k = 0; k < MOST; k++) {
-        const double x = now + c;
-        const double change = (c + square * wave->quotient(problem, x, past) - right) /
-                              (1 + square * wave->quotient_slope(problem, x, past));
-        const double size = fabs(change);
-        ++*iterations;
-        c -= change;
-        if (gm_is_settled(size, 1e-14 * fmax(1, fabs(x)), &last) || isnan(size)) {
-            return c;
-        }
+    double last[NODES], x[NODES], y[NODES], quotient[NODES], slope[NODES];
+    size_t node[NODES], left = count;
+    for (size_t i = 0; i < count; i++) {
+        node[i] = i;
+        last[i] = INFINITY;
     }
-    return NAN;
+    for (int k = 0; k < MOST && left > 0; k++) {
+        for (size_t j = 0; j < left; j++) {
+            x[j] = now[node[j]] + c[node[j]];
+            y[j] = past[node[j]];
+        }
+        wave->quotients(problem, x, y, quotient, slope, left);
+        *iterations += left;
+        size_t unsettled = 0;
+        for (size_t j = 0; j < left; j++) {
+            const size_t i = node[j];
+            const double change = (c[i] + square * quotient[j] - right[i]) / (1 + square * slope[j]),
+                         size = fabs(change);
+            c[i] -= change;
+            if (!gm_is_settled(size, 1e-14 * fmax(1, fabs(x[j])), &last[i]) && !isnan(size)) {
+                node[unsettled++] = i;
+            }
+        }
+        left = unsettled;
+    }
+    for (size_t j = 0; j < left; j++) {
+        c[node[j]] = NAN;
+    }
 }
 
 /* Solved for the change from level to level, which is kept apart from the levels: there it would be rounded
@@ -63,17 +82,21 @@ static double solve_node(const struct gm_problem *problem, double square, double
 static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem,
                                         double dt, struct gm_progress *progress)
 {
-    const double *past = work->level[0], *now = work->level[1];
-    double *next = work->level[2];
     const double square = dt * dt, ratio = square / (problem->line.dx * problem->line.dx);
-    for (size_t i = 0; i < work->points; i++) {
-        const double before = work->change[i];
-        const double curvature = ((now + i)[1] - now[i]) - (now[i] - (now + i)[-1]);
-        const double right = before + ratio * curvature;
-        work->change[i] = solve_node(problem, square, past[i], now[i], right, before, &progress->iterations);
-        next[i] = now[i] + work->change[i];
-        if (isnan(next[i])) {
-            return isfinite(right) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
+    for (size_t first = 0; first < work->points; first += NODES) {
+        const size_t count = work->points - first < NODES ? work->points - first : NODES;
+        const double *past = work->level[0] + first, *now = work->level[1] + first;
+        double right[NODES], *change = work->change + first, *next = work->level[2] + first;
+        for (size_t i = 0; i < count; i++) {
+            const double curvature = ((now + i)[1] - now[i]) - (now[i] - (now + i)[-1]);
+            right[i] = change[i] + ratio * curvature;
+        }
+        solve_nodes(problem, square, past, now, right, change, count, &progress->iterations);
+        for (size_t i = 0; i < count; i++) {
+            next[i] = now[i] + change[i];
+            if (isnan(next[i])) {
+                return isfinite(right[i]) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
+            }
         }
     }
     progress->evaluations++;

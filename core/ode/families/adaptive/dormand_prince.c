@@ -7,6 +7,7 @@
    The run's dt is the distance of its rows: their states are values of the interpolant, and the scheme's own
    steps depend neither on dt nor on the end of the run. Each member of an ensemble has its own steps.
    E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.4 to II.6. */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 #include "core/theory/coefficients.h"
 
@@ -87,7 +88,7 @@ static double norm_of(const struct member *member, const double *vector, const d
     double sum = 0;
     for (size_t c = 0; c < member->n; c++) {
         const double scale = member->tolerance * (1 + fabs(member->y[c]));
-        sum += pow((vector[c] - (origin ? origin[c] : 0)) / scale, 2);
+        sum += gm_pow((vector[c] - (origin ? origin[c] : 0)) / scale, 2);
     }
     return sqrt(sum / (double)member->n);
 }
@@ -110,7 +111,7 @@ static enum gm_status begin(const struct gm_task *task, struct member *member, s
     gm_field(task->problem, stage, slope, 1);
     progress->evaluations += 2;
     const double steepest = fmax(rate, norm_of(member, slope, member->k) / guess);
-    const double next = steepest > none ? pow(0.01 / steepest, 0.2) : fmax(1e-6, guess / 1000);
+    const double next = steepest > none ? gm_pow(0.01 / steepest, 0.2) : fmax(1e-6, guess / 1000);
     member->number[TIME] = task->t;
     member->number[STEP] = copysign(next > 0 ? fmin(100 * guess, next) : guess, task->dt);
     return isfinite(rate) ? GM_OK : GM_BLOW_UP;
@@ -185,7 +186,7 @@ static enum gm_status own_step(const struct gm_task *task, struct member *member
     double h = member->number[STEP], most = 5;
     for (int too_small = 0; too_small < MOST_TOO_SMALL && t + h != t;) {
         const double error = try_step(task, member, h, progress);
-        const double factor = fmin(most, fmax(0.2, 0.9 * pow(error, -0.2)));
+        const double factor = fmin(most, fmax(0.2, 0.9 * gm_pow(error, -0.2)));
         if (error <= 1) {
             progress->own_steps++;
             member->number[STEP] = h * factor;

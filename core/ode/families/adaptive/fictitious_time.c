@@ -13,6 +13,7 @@
    Y. Nakamura, Phys. Lett. A 306 (2002) 127. */
 #include <complex.h>
 
+#include "core/functions/complex.h"
 #include "core/ode/families/family.h"
 
 static double square(double complex z)
@@ -34,7 +35,7 @@ static void drift_by_midpoint(double ds, double binding, double complex *u, doub
 /* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 static void levi_civita(const struct gm_problem *problem, double ds, double binding, double *y, double *t)
 {
-    double complex u = csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
+    double complex u = gm_csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
     drift_by_midpoint(ds / 2, binding, &u, &w, t);
     const double complex q = u * u;
     const double at[] = {creal(q), cimag(q)};

@@ -17,6 +17,7 @@
    of restarts. */
 #include "core/ode/families/adaptive/variational_time.h"
 
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 
 enum rule { RECTANGLE, RECTANGLE_RESTART, MIDPOINT };
@@ -46,7 +47,7 @@ static bool find_root(enum rule rule, double v, double slope, double square, dou
     for (int sign = 1; sign >= -1; sign -= 2) {
         const double candidate = (v - sign * root) / slope, ratio = candidate / tau0;
         const bool allowed = rule == RECTANGLE ? ratio > 0 : ratio > 0.3 && ratio < 3;
-        const double away = fabs(log(candidate / near));
+        const double away = fabs(gm_log(candidate / near));
         if (allowed && away < best) {
             best = away;
             *tau = candidate;

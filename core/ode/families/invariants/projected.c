@@ -9,6 +9,7 @@
    On systems with constraints g(q) = 0, G = dg/dq, a step of the motion with the multipliers of g'' = 0,
        (q, p) = Phi_h(y_0),   q_1 = q + M^-1 G' mu,  g(q_1) = 0,   p_1 = p + G' nu,  G v_1 = 0
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.2. */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/variational/manifold.h"
@@ -82,7 +83,8 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     memcpy(members->y, held->z, held->n * sizeof *held->z);
     for (size_t c = 0; !held->holding->constraints && c < held->n; c++) {
         const double moved = held->z[c] - held->next[c];
-        members->memory[GM_HELD_CORRECTION] = hypot(c > 0 ? members->memory[GM_HELD_CORRECTION] : 0, moved);
+        members->memory[GM_HELD_CORRECTION] =
+            gm_hypot(c > 0 ? members->memory[GM_HELD_CORRECTION] : 0, moved);
     }
     return status;
 }

@@ -14,6 +14,7 @@
    crouch-grossman3, crouch-grossman4: products of exponentials at each stage,
        k_i = F(exp(a_i,i-1 k_i-1) ... exp(a_i1 k_1) y_0),   y_1 = exp(b_s k_s) ... exp(b_1 k_1) y_0
    P.E. Crouch & R. Grossman, J. Nonlinear Sci. 3 (1993) 1; B. Owren & A. Marthinsen, BIT 39 (1999) 116. */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 #include "core/ode/families/poisson/turns.h"
 
@@ -28,10 +29,10 @@ struct crouch_grossman {
 static void drag(const double *axis, double *a)
 {
     const double square = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2], angle = sqrt(square);
-    const double half = angle > 0 ? sin(angle / 2) / (angle / 2) : 1;
+    const double half = angle > 0 ? gm_sin(angle / 2) / (angle / 2) : 1;
     double once[3], twice[3], along = 0;
     if (angle > 0.5) {
-        along = (angle - sin(angle)) / (square * angle);
+        along = (angle - gm_sin(angle)) / (square * angle);
     } else { /* 1/6 - x^2/120 + ..., if the difference would cancel */
         for (int k = 7; k >= 0; k--) {
             along = (1 - square * along) / ((2 * k + 2) * (2 * k + 3));

@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
 #include "core/linear/vectors.h"
 #include "core/ode/ode.h"
 #include "core/scheme.h"
@@ -16,8 +17,8 @@ static inline void gm_turn(double factor, const double *a, double *y)
 {
     const double axis[3] = {factor * a[0], factor * a[1], factor * a[2]};
     const double angle = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
-    const double half = angle > 0 ? sin(angle / 2) / (angle / 2) : 1;
-    const double across = angle > 0 ? sin(angle) / angle : 1, along = half * half / 2;
+    const double half = angle > 0 ? gm_sin(angle / 2) / (angle / 2) : 1;
+    const double across = angle > 0 ? gm_sin(angle) / angle : 1, along = half * half / 2;
     double once[3], twice[3];
     gm_cross(axis, y, once);
     gm_cross(axis, once, twice);

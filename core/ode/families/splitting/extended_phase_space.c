@@ -14,6 +14,7 @@
        h Omega         0.5    0.25    0.15
        omega, tao2      5      20     40 at least
        omega, tao4      2      10     40 at least */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 
 /* One copy moves by f = (H_p, -H_q) taken at (q of one, p of the other): q of the second, p of the first. */
@@ -33,7 +34,7 @@ static void shear(const struct gm_problem *problem, double h, double *first, dou
 static void turn(size_t n, double angle, double *first, double *second)
 {
     const size_t half = n / 2;
-    const double cosine = cos(angle), sine = sin(angle);
+    const double cosine = gm_cos(angle), sine = gm_sin(angle);
     for (size_t c = 0; c < half; c++) {
         const double q_sum = first[c] + second[c], q_apart = first[c] - second[c];
         const double p_sum = first[half + c] + second[half + c], p_apart = first[half + c] - second[half + c];

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/functions/lanes.h"
 #include "core/ode/families/splitting/kepler.h"
-#include "core/ode/kernel/simd.h"
 
 /* x := the differences of q to the centres of mass of the bodies before, in place; x_0 is the centre of all */
 static void to_differences(const struct gm_gravity *gravity, double *q)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 
 bool gm_linear_flow_derive(struct gm_arena *arena, struct gm_linear_flow *flow, struct gm_formula *graph,
                            const gm_node_id *rates, size_t n, size_t variables)
@@ -127,7 +128,7 @@ static void balance(size_t n, double *A, int *powers)
                 row += j == i ? 0 : fabs(A[i * n + j]);
                 column += j == i ? 0 : fabs(A[j * n + i]);
             }
-            const int power = row > 0 && column > 0 ? (int)(log2(row / column) / 2) : 0;
+            const int power = row > 0 && column > 0 ? (int)(gm_log2(row / column) / 2) : 0;
             for (size_t j = 0; j < n && power != 0; j++) {
                 A[i * n + j] = ldexp(A[i * n + j], -power);
                 A[j * n + i] = ldexp(A[j * n + i], power);

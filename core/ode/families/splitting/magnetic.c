@@ -6,6 +6,7 @@
    symmetric, and preserve the volume of (x, v).
 
    For H = c |p - A(x, t)|^2/2 + phi the state is (x, p), v = c (p - A). */
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 
 enum { MOST = 3 };
@@ -23,8 +24,8 @@ static void rotate(size_t half, double h, bool exact, const double *w, double *v
     }
     double a = 1 / (1 + square / 4), b = a / 2;
     if (exact && square > 0) {
-        const double angle = sqrt(square), sinc = sin(angle / 2) / (angle / 2);
-        a = sin(angle) / angle;
+        const double angle = sqrt(square), sinc = gm_sin(angle / 2) / (angle / 2);
+        a = gm_sin(angle) / angle;
         b = sinc * sinc / 2;
     }
     for (size_t i = 0; i < half; i++) {

@@ -14,6 +14,7 @@
 
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
+#include "core/functions/functions.h"
 #include "core/ode/families/base_scheme.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/family.h"
@@ -450,10 +451,10 @@ static void make_matrix(struct work *work, struct flow *flow, double h)
     if (part->how == ROTATION) {
         for (size_t i = 0; i < half; i++) {
             const double omega = gm_ode_of(problem)->fast_linear->frequency(problem, i), x = h * omega;
-            put_entry(flow, i, i, cos(x));
-            put_entry(flow, i, half + i, fabs(x) < 1e-4 ? h * (1 - x * x / 6) : sin(x) / omega);
-            put_entry(flow, half + i, i, -omega * sin(x));
-            put_entry(flow, half + i, half + i, cos(x));
+            put_entry(flow, i, i, gm_cos(x));
+            put_entry(flow, i, half + i, fabs(x) < 1e-4 ? h * (1 - x * x / 6) : gm_sin(x) / omega);
+            put_entry(flow, half + i, i, -omega * gm_sin(x));
+            put_entry(flow, half + i, half + i, gm_cos(x));
         }
         return;
     }

@@ -22,6 +22,7 @@
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
 #include "core/ode/families/variational/discrete_lagrangian.h"
 
+#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
@@ -303,7 +304,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     step.task = task;
     step.progress = progress;
     step.friction = rule->damped ? *gm_ode_of(problem)->action->friction : 0;
-    const double fades = exp(-step.friction * task->dt / 2);
+    const double fades = gm_exp(-step.friction * task->dt / 2);
     if (rule->late) {
         memset(step.manifold.at + half, 0, half * sizeof *y);
         if (!gm_manifold_settle(&step.manifold, y)) {

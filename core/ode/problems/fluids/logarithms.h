@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "core/functions/functions.h"
+
 /* A sum of logarithms, evaluated as the logarithm of products as long as these are neither tiny nor huge. */
 struct gm_logarithms {
     double sum, product; /* 0 and 1 at first */
@@ -15,14 +17,14 @@ static inline void gm_logarithms_add(struct gm_logarithms *logarithms, double nu
     if (longer > 1e-150 && longer < 1e150) {
         logarithms->product = longer;
     } else {
-        logarithms->sum += log(logarithms->product) + log(number);
+        logarithms->sum += gm_log(logarithms->product) + gm_log(number);
         logarithms->product = 1;
     }
 }
 
 static inline double gm_logarithms_sum(const struct gm_logarithms *logarithms)
 {
-    return logarithms->sum + log(logarithms->product);
+    return logarithms->sum + gm_log(logarithms->product);
 }
 
 #endif

@@ -27,6 +27,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/functions/functions.h"
+
 enum {
     LEAF = 80,      /* the most vortices of a leaf */
     MOST_TERMS = 40 /* the error is then 3e-19 */
@@ -61,11 +63,12 @@ static void choose(struct tree *tree, double tolerance)
     const double steps = 1.0 / 64;
     double apart = 3;
     size_t terms = LANES;
-    while (terms < MOST_TERMS && 2 * pow(apart, -(double)terms) * 3 > tolerance) {
+    while (terms < MOST_TERMS && 2 * gm_pow(apart, -(double)terms) * 3 > tolerance) {
         terms += LANES;
     }
     while (apart - steps >= 2 &&
-           2 * pow(apart - steps, -(double)terms) * (apart - steps + 3) / (apart - steps - 1) <= tolerance) {
+           2 * gm_pow(apart - steps, -(double)terms) * (apart - steps + 3) / (apart - steps - 1) <=
+               tolerance) {
         apart -= steps;
     }
     tree->terms = terms;
@@ -358,7 +361,7 @@ static void act(struct tree *tree, const struct cell *one, const struct cell *ot
     multiply(tree, moments_of(tree, other), of_other, sums);
     if (of_logarithms) {
         const double *moments = moments_of(tree, one);
-        double sum = (double)one->count * (double)other->count * log(square) / 2;
+        double sum = (double)one->count * (double)other->count * gm_log(square) / 2;
         for (size_t l = 0; l < terms; l++) {
             const double x = moments[l] * of_one[l] - moments[terms + l] * of_one[terms + l];
             const double y = moments[l] * of_one[terms + l] + moments[terms + l] * of_one[l];

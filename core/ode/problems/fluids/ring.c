@@ -6,6 +6,7 @@
 #include <complex.h>
 #include <math.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -17,7 +18,7 @@ static void symbol(const struct gm_problem *problem, size_t mode, double complex
 {
     (void)problem;
     const double angle = 2 * M_PI * (double)mode / POINTS;
-    matrix[0] = -I * (sin(2 * angle) - 2 * sin(angle)) / 2;
+    matrix[0] = -I * (gm_sin(2 * angle) - 2 * gm_sin(angle)) / 2;
 }
 
 static void nonlinear(const struct gm_problem *problem, const double *y, double *rest)

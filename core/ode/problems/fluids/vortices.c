@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "core/functions/functions.h"
 #include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/fluids/logarithms.h"
@@ -63,8 +64,8 @@ static void reduced_energy(const struct gm_problem *problem, const double *state
     for (size_t k = 0; k < m; k++) {
         const double x1 = state[k], x2 = state[m + k], y1 = state[2 * m + k], y2 = state[3 * m + k];
         const double dx = x1 - x2, dy = y1 - y2, sx = x1 + x2, sy = y1 + y2;
-        value[k] = -factor * (2 * log(dx * dx + dy * dy) + 2 * log(sx * sx + sy * sy) +
-                              log(4 * (x1 * x1 + y1 * y1)) + log(4 * (x2 * x2 + y2 * y2)));
+        value[k] = -factor * (2 * gm_log(dx * dx + dy * dy) + 2 * gm_log(sx * sx + sy * sy) +
+                              gm_log(4 * (x1 * x1 + y1 * y1)) + gm_log(4 * (x2 * x2 + y2 * y2)));
     }
 }
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lane type `real` of one pass over a problem's kernels. core/ode/compiled/over_kernels.c includes this
-   twice: with GM_PASS_SCALAR real is a double, for a single run; otherwise a vector of GM_WIDTH doubles, for
-   a block of members of an ensemble. Every operation is the same IEEE operation in both, lane by lane, so a
-   member's bits do not depend on the pass. K(name) is the name of a function of this pass. */
+/* The lane type `real` of one pass, and `pattern`, the bits of its numbers. A source of functions or kernels
+   includes this twice: with GM_PASS_SCALAR real is a double, for a single run; otherwise a vector of GM_WIDTH
+   doubles, for a block of members of an ensemble. Every operation is the same IEEE operation in both, lane by
+   lane, so a member's bits do not depend on the pass. K(name) is the name of a function of this pass. */
 
 #ifndef GM_INLINE /* once for both passes */
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #define GM_INLINE static inline __attribute__((always_inline, unused))
 
@@ -22,6 +23,8 @@ enum { GM_WIDTH = 2 };
 #endif
 typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
 typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
+typedef uint64_t gm_lanes_pattern __attribute__((vector_size(GM_WIDTH * 8)));
+typedef double gm_four __attribute__((vector_size(32)));
 /* Lanes in the state, aligned like doubles. One instruction moves them: memcpy makes two halves of them, for
    which the register then has to wait. */
 typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
@@ -32,12 +35,31 @@ typedef int64_t gm_packed_bits __attribute__((vector_size(16)));
 
 #endif
 
+#undef real
+#undef mask
+#undef pattern
+#undef GM_LANES
+#undef K
 #ifdef GM_PASS_SCALAR
 
 #define real double
 #define mask bool
+#define pattern uint64_t
 #define GM_LANES 1
 #define K(name) name##_scalar
+
+GM_INLINE uint64_t K(bits)(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+GM_INLINE double K(number)(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
 
 GM_INLINE double K(constant)(double value)
 {
@@ -75,6 +97,24 @@ GM_INLINE double K(root)(double x)
 {
     return sqrt(x);
 }
+/* yes where all bits of `which` are set, otherwise no; and x with its sign turned by a bit. In registers of
+   numbers: a way through others takes longer than this. */
+GM_INLINE double K(blend)(uint64_t which, double yes, double no)
+{
+    const gm_packed_bits chosen = {(int64_t)which}, of_yes = (gm_packed_bits)(gm_packed){yes},
+                         of_no = (gm_packed_bits)(gm_packed){no};
+    return ((gm_packed)((chosen & of_yes) | (~chosen & of_no)))[0];
+}
+GM_INLINE double K(turned_by)(double x, uint64_t sign)
+{
+    const gm_packed_bits bits = {(int64_t)sign};
+    return ((gm_packed)((gm_packed_bits)(gm_packed){x} ^ bits))[0];
+}
+/* the bits where chosen, else 0 */
+GM_INLINE uint64_t K(pick_bits)(bool choose, uint64_t bits)
+{
+    return choose ? bits : 0;
+}
 GM_INLINE bool K(everywhere)(bool which)
 {
     return which;
@@ -90,6 +130,10 @@ GM_INLINE bool K(all)(void)
 GM_INLINE double K(lane)(double x, int lane)
 {
     return (void)lane, x;
+}
+GM_INLINE uint64_t K(pattern_lane)(uint64_t bits, int lane)
+{
+    return (void)lane, bits;
 }
 GM_INLINE void K(set_lane)(double *x, int lane, double value)
 {
@@ -111,13 +155,27 @@ GM_INLINE bool K(both)(bool a, bool b)
 {
     return a && b;
 }
+GM_INLINE bool K(either)(bool a, bool b)
+{
+    return a || b;
+}
 
 #else
 
 #define real gm_lanes
 #define mask gm_lanes_mask
+#define pattern gm_lanes_pattern
 #define GM_LANES GM_WIDTH
 #define K(name) name##_lanes
+
+GM_INLINE gm_lanes_pattern K(bits)(gm_lanes x)
+{
+    return (gm_lanes_pattern)x;
+}
+GM_INLINE gm_lanes K(number)(gm_lanes_pattern bits)
+{
+    return (gm_lanes)bits;
+}
 
 GM_INLINE gm_lanes K(constant)(double value)
 {
@@ -138,6 +196,25 @@ GM_INLINE gm_lanes K(pick)(gm_lanes_mask choose, gm_lanes yes, gm_lanes no)
 GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
+}
+/* The signs of lanes, one bit each: compilers take lanes out one by one for such a question. */
+GM_INLINE int K(signs)(gm_lanes_mask which)
+{
+#if defined(__AVX512F__)
+    const gm_four halves = (gm_four)__builtin_shufflevector(which, which, 0, 1, 2, 3),
+                  others = (gm_four)__builtin_shufflevector(which, which, 4, 5, 6, 7);
+    return __builtin_ia32_movmskpd256(halves) | __builtin_ia32_movmskpd256(others) << 4;
+#elif defined(__AVX2__)
+    return __builtin_ia32_movmskpd256((gm_lanes)which);
+#elif defined(__SSE2__)
+    return __builtin_ia32_movmskpd((gm_lanes)which);
+#else
+    int signs = 0;
+    for (int i = 0; i < GM_WIDTH; i++) {
+        signs |= (which[i] < 0) << i;
+    }
+    return signs;
+#endif
 }
 /* Combines, for K(somewhere_beyond), the magnitudes of all x so far: their bits are ordered like the numbers,
    NaN last. A comparison of numbers would use the registers of masks, where each waits for the last. With an
@@ -170,11 +247,7 @@ GM_INLINE bool K(somewhere_beyond)(gm_lanes_mask farthest, double limit)
 #else
     (void)limit; /* K(distance) has compared with it */
 #endif
-    int64_t any = 0;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        any |= farthest[i];
-    }
-    return any < 0;
+    return K(signs)(farthest) != 0;
 }
 GM_INLINE gm_lanes K(root)(gm_lanes x)
 {
@@ -183,21 +256,25 @@ GM_INLINE gm_lanes K(root)(gm_lanes x)
     }
     return x;
 }
+GM_INLINE gm_lanes K(blend)(gm_lanes_pattern which, gm_lanes yes, gm_lanes no)
+{
+    return (gm_lanes)((which & (gm_lanes_pattern)yes) | (~which & (gm_lanes_pattern)no));
+}
+GM_INLINE gm_lanes K(turned_by)(gm_lanes x, gm_lanes_pattern sign)
+{
+    return (gm_lanes)((gm_lanes_pattern)x ^ sign);
+}
+GM_INLINE gm_lanes_pattern K(pick_bits)(gm_lanes_mask choose, gm_lanes_pattern bits)
+{
+    return (gm_lanes_pattern)choose & bits;
+}
 GM_INLINE bool K(everywhere)(gm_lanes_mask which)
 {
-    int64_t all = -1;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        all &= which[i];
-    }
-    return all != 0;
+    return K(signs)(which) == (1 << GM_WIDTH) - 1;
 }
 GM_INLINE bool K(somewhere)(gm_lanes_mask which)
 {
-    int64_t any = 0;
-    for (int i = 0; i < GM_WIDTH; i++) {
-        any |= which[i];
-    }
-    return any != 0;
+    return K(signs)(which) != 0;
 }
 GM_INLINE gm_lanes_mask K(all)(void)
 {
@@ -206,6 +283,10 @@ GM_INLINE gm_lanes_mask K(all)(void)
 GM_INLINE double K(lane)(gm_lanes x, int lane)
 {
     return x[lane];
+}
+GM_INLINE uint64_t K(pattern_lane)(gm_lanes_pattern bits, int lane)
+{
+    return bits[lane];
 }
 GM_INLINE void K(set_lane)(gm_lanes *x, int lane, double value)
 {
@@ -226,6 +307,10 @@ GM_INLINE gm_lanes_mask K(other)(gm_lanes_mask which)
 GM_INLINE gm_lanes_mask K(both)(gm_lanes_mask a, gm_lanes_mask b)
 {
     return a & b;
+}
+GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b)
+{
+    return a | b;
 }
 
 #endif
