@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for the equations of one step on a mesh: with factors that are kept, then, where that
    fails, with new ones and shortened steps, from one first guess after the other. */
-#include "core/functions/functions.h"
 #include "core/mesh/solver.h"
 
 #include <float.h>
@@ -10,6 +9,7 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/functions/functions.h"
 
 enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
