@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/data/column.h"
+#include "render/files/deflate.h"
 
 #include <errno.h>
-#include <libdeflate.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,7 +99,7 @@ void gm_bytes_copy(struct gm_bytes *from, uint64_t place, uint64_t size, struct 
         const size_t part = block_of(size - at);
         fetch(from, block, part, place + at, noting, false);
         gm_bytes_write(noting, block, to ? part : 0, there + at);
-        *crc = libdeflate_crc32(*crc, block, part);
+        *crc = gm_deflate()->libdeflate_crc32(*crc, block, part);
     }
 }
 
@@ -149,7 +149,7 @@ static void write_out(struct gm_column *column, const unsigned char *bytes, size
         const size_t written = write_most(column->file->file, bytes, size, column->place);
         column->failed = written < size;
         gm_bytes_note(column->file, !column->failed);
-        column->crc = libdeflate_crc32(column->crc, bytes, written);
+        column->crc = gm_deflate()->libdeflate_crc32(column->crc, bytes, written);
         column->place += written;
     }
 }

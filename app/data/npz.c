@@ -5,7 +5,6 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <libdeflate.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +12,7 @@
 
 #include "app/base/arguments.h"
 #include "render/cells/text.h"
+#include "render/files/deflate.h"
 
 enum { NPY_HEAD = 256 };
 
@@ -183,7 +183,7 @@ static struct gm_npz_entry reserve(struct gm_npz *npz, const char *name, const s
     snprintf(entry.name, sizeof entry.name, "%s.npy", name);
     entry.head = head_of(&entry, head, 0);
     entry.size = entry.head + numbers_of(&entry);
-    entry.crc = libdeflate_crc32(0, head, entry.head);
+    entry.crc = gm_deflate()->libdeflate_crc32(0, head, entry.head);
     npz->place = head_place(&entry) + entry.size;
     return entry;
 }
@@ -206,7 +206,7 @@ void gm_npz_array(struct gm_npz *npz, const char *name, const struct gm_npz_shap
 {
     struct gm_npz_entry entry = reserve(npz, name, shape);
     const uint64_t size = numbers_of(&entry);
-    entry.crc = libdeflate_crc32(entry.crc, values, size);
+    entry.crc = gm_deflate()->libdeflate_crc32(entry.crc, values, size);
     gm_bytes_write(npz->file, values, size, head_place(&entry) + entry.head);
     settle(npz, &entry);
     add_entry(npz, &entry);
@@ -250,7 +250,7 @@ void gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
     char head[NPY_HEAD];
     entry->shape.lengths[0] = length;
     entry->size = entry->head + numbers_of(entry);
-    entry->crc = libdeflate_crc32(0, head, head_of(entry, head, entry->head));
+    entry->crc = gm_deflate()->libdeflate_crc32(0, head, head_of(entry, head, entry->head));
     gm_bytes_copy(npz->file, head_place(entry) + entry->head, numbers_of(entry), NULL, 0, &entry->crc);
     settle(npz, entry);
 }

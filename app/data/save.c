@@ -13,6 +13,7 @@
 #include "core/basics.h"
 #include "core/expression/reader.h"
 #include "render/clock.h"
+#include "render/files/deflate.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
 
@@ -71,6 +72,7 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
     if (!save || !folder) {
         gm_refuse(message, "not enough memory");
     } else if (gm_temporary_can_replace(path, message)) {
+        gm_deflate(); /* without it the program ends before there is a file */
         save->part = gm_part_open(path, go_on, message);
     }
     if (!save || !save->part) {

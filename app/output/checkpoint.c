@@ -3,7 +3,6 @@
 #include "app/output/frames.h"
 
 #include <errno.h>
-#include <libdeflate.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 
 #include "app/words/drive.h"
 #include "core/arena.h"
+#include "render/files/deflate.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
@@ -151,16 +151,16 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
                                .lanes = (uint32_t)pause->count}};
     struct head *head = &writing.head;
     memcpy(head->magic, magic, sizeof magic);
-    uint32_t checksum = libdeflate_crc32(0, pause->identity, head->identity_size);
+    uint32_t checksum = gm_deflate()->libdeflate_crc32(0, pause->identity, head->identity_size);
     for (size_t i = 0; i < pause->count; i++) {
         const struct record *record = &pause->records[i];
-        checksum = libdeflate_crc32(checksum, &record->size, sizeof record->size);
+        checksum = gm_deflate()->libdeflate_crc32(checksum, &record->size, sizeof record->size);
         if (record->size > 0) { /* NULL would restart the checksum */
-            checksum = libdeflate_crc32(checksum, record->bytes, record->size);
+            checksum = gm_deflate()->libdeflate_crc32(checksum, record->bytes, record->size);
         }
         head->body_size += sizeof record->size + record->size;
     }
-    head->checksum = libdeflate_crc32(checksum, head, sizeof *head);
+    head->checksum = gm_deflate()->libdeflate_crc32(checksum, head, sizeof *head);
     return gm_temporary_make(path, write_file, &writing) ||
            gm_temporary_refuse(message, path, strerror(errno));
 }
@@ -203,7 +203,8 @@ static const char *read_file(FILE *file, size_t size, struct gm_pause *pause)
     const bool whole = fread(bytes, 1, size, file) == size;
     const uint32_t checksum = head.checksum;
     head.checksum = 0;
-    if (!whole || libdeflate_crc32(libdeflate_crc32(0, bytes, size), &head, sizeof head) != checksum) {
+    if (!whole || gm_deflate()->libdeflate_crc32(gm_deflate()->libdeflate_crc32(0, bytes, size), &head,
+                                                 sizeof head) != checksum) {
         return "is damaged";
     }
     if (head.identity_size != strlen(pause->identity) ||

@@ -4,7 +4,6 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <libdeflate.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +13,7 @@
 #include "app/output/folder.h"
 #include "core/arena.h"
 #include "core/basics.h"
+#include "render/files/deflate.h"
 #include "render/files/temporary.h"
 
 static bool take_shard(struct gm_schedule *schedule, const struct gm_pace *pace, char *message)
@@ -128,7 +128,7 @@ static const char *identify(struct gm_arena *arena, const struct gm_schedule *sc
     }
     for (size_t i = 0; i < provenance->count; i++) {
         const char *text = provenance->texts[i].text;
-        checksum = libdeflate_crc32(checksum, text, strlen(text) + 1);
+        checksum = gm_deflate()->libdeflate_crc32(checksum, text, strlen(text) + 1);
     }
     return gm_arena_print(arena, "%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count,
                           schedule->first, schedule->last, checksum, program);

@@ -3,7 +3,6 @@
 #include "app/output/provenance.h"
 
 #include <inttypes.h>
-#include <libdeflate.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 #include "app/words/drive.h"
 #include "core/schemes.h"
 #include "render/cells/grid.h"
+#include "render/files/deflate.h"
 
 /* Adds a malloc'ed text; NULL: it was out of memory. */
 static void take(struct gm_provenance *provenance, const char *key, char *text)
@@ -241,7 +241,7 @@ bool gm_program_checksum(unsigned *checksum)
     size_t size = 0;
     *checksum = 0;
     while ((size = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        *checksum = libdeflate_crc32(*checksum, bytes, size);
+        *checksum = gm_deflate()->libdeflate_crc32(*checksum, bytes, size);
     }
     const bool read = !ferror(file);
     fclose(file);

@@ -10,9 +10,24 @@
 #include <string.h>
 
 #include "core/functions/functions.h"
+#include "loader/library.h"
+
+/* clang-format off */
+#define FUNCTIONS(F) \
+    F(mpfr_add) F(mpfr_cmp_d) F(mpfr_const_pi) F(mpfr_cos) F(mpfr_div) F(mpfr_div_si) F(mpfr_exp) \
+    F(mpfr_free_cache) F(mpfr_get_d) F(mpfr_log) F(mpfr_mul) F(mpfr_set_d) F(mpfr_set_si_2exp) F(mpfr_sin) \
+    F(mpfr_snprintf) F(mpfr_sqrt) F(mpfr_strtofr) F(mpfr_sub)
+/* clang-format on */
+struct mpfr {
+    FUNCTIONS(GM_LIBRARY_POINTER)
+};
+static const struct mpfr *mpfr(void);
+GM_LIBRARY(mpfr, "libmpfr.so.6", FUNCTIONS)
 
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };
 static const double LARGEST = 1e6;
+
+static _Thread_local bool used; /* true once this thread may have cached constants */
 
 /* A view of the midpoint, valid until the ball is moved. */
 static void view(mpfr_t number, const struct gm_ball *ball)
@@ -23,6 +38,7 @@ static void view(mpfr_t number, const struct gm_ball *ball)
 /* A result to be: a zero whose limbs MPFR may write. */
 static void begin(mpfr_t number, struct gm_ball *ball)
 {
+    used = true;
     mpfr_custom_init(ball->limbs, BITS);
     mpfr_custom_init_set(number, MPFR_ZERO_KIND, 0, BITS, ball->limbs);
 }
@@ -33,7 +49,7 @@ static void finish(struct gm_ball *ball, mpfr_t number, bool rounded, double rad
     ball->kind = mpfr_custom_get_kind(number);
     ball->exponent = mpfr_custom_get_exp(number);
     if (rounded) {
-        radius += ldexp(fabs(mpfr_get_d(number, MPFR_RNDA)), 1 - BITS);
+        radius += ldexp(fabs(mpfr()->mpfr_get_d(number, MPFR_RNDA)), 1 - BITS);
     }
     ball->radius = radius * (1 + 8 * DBL_EPSILON);
 }
@@ -43,7 +59,7 @@ struct gm_ball gm_ball_of(double value)
     struct gm_ball ball;
     mpfr_t number;
     begin(number, &ball);
-    mpfr_set_d(number, value, MPFR_RNDN);
+    mpfr()->mpfr_set_d(number, value, MPFR_RNDN);
     finish(&ball, number, false, 0);
     return ball;
 }
@@ -53,8 +69,8 @@ struct gm_ball gm_ball_ratio(long p, long q)
     struct gm_ball ball;
     mpfr_t number;
     begin(number, &ball);
-    mpfr_set_si(number, p, MPFR_RNDN);
-    finish(&ball, number, mpfr_div_si(number, number, q, MPFR_RNDN) != 0, 0);
+    mpfr()->mpfr_set_si_2exp(number, p, 0, MPFR_RNDN);
+    finish(&ball, number, (mpfr()->mpfr_div_si)(number, number, q, MPFR_RNDN) != 0, 0);
     return ball;
 }
 
@@ -101,10 +117,10 @@ struct gm_ball gm_ball_decimal(const char *text, size_t length, double value)
     struct gm_ball ball;
     mpfr_t number;
     begin(number, &ball);
-    const bool rounded = mpfr_strtofr(number, text, NULL, 10, MPFR_RNDN) != 0;
+    const bool rounded = mpfr()->mpfr_strtofr(number, text, NULL, 10, MPFR_RNDN) != 0;
     const double unit = gm_pow(10, (i < length ? strtod(text + i + 1, NULL) : 0) - behind);
     const bool whole = !point && i == length;
-    const bool dyadic = !rounded && mpfr_cmp_d(number, value) == 0 && is_short_dyadic(value);
+    const bool dyadic = !rounded && mpfr()->mpfr_cmp_d(number, value) == 0 && is_short_dyadic(value);
     const bool printed = digits > DIGITS && digits <= DIGITS + 2;
     finish(&ball, number, rounded,
            whole || dyadic || digits <= EXACT_DIGITS ? 0
@@ -118,7 +134,7 @@ struct gm_ball gm_ball_pi(void)
     struct gm_ball ball;
     mpfr_t number;
     begin(number, &ball);
-    finish(&ball, number, mpfr_const_pi(number, MPFR_RNDN) != 0, 0);
+    finish(&ball, number, mpfr()->mpfr_const_pi(number, MPFR_RNDN) != 0, 0);
     return ball;
 }
 
@@ -139,12 +155,12 @@ static struct gm_ball combine(operation *apply, const struct gm_ball *a, const s
 
 struct gm_ball gm_ball_add(struct gm_ball a, struct gm_ball b)
 {
-    return combine(mpfr_add, &a, &b, a.radius + b.radius);
+    return combine(mpfr()->mpfr_add, &a, &b, a.radius + b.radius);
 }
 
 struct gm_ball gm_ball_subtract(struct gm_ball a, struct gm_ball b)
 {
-    return combine(mpfr_sub, &a, &b, a.radius + b.radius);
+    return combine(mpfr()->mpfr_sub, &a, &b, a.radius + b.radius);
 }
 
 struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b)
@@ -152,8 +168,9 @@ struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b)
     mpfr_t x, y;
     view(x, &a);
     view(y, &b);
-    const double size_a = fabs(mpfr_get_d(x, MPFR_RNDA)), size_b = fabs(mpfr_get_d(y, MPFR_RNDA));
-    return combine(mpfr_mul, &a, &b, size_a * b.radius + size_b * a.radius + a.radius * b.radius);
+    const double size_a = fabs(mpfr()->mpfr_get_d(x, MPFR_RNDA)),
+                 size_b = fabs(mpfr()->mpfr_get_d(y, MPFR_RNDA));
+    return combine(mpfr()->mpfr_mul, &a, &b, size_a * b.radius + size_b * a.radius + a.radius * b.radius);
 }
 
 struct gm_ball gm_ball_dot(const struct gm_ball *x, const struct gm_ball *y, int count)
@@ -170,14 +187,14 @@ static double least_size(struct gm_ball a)
 {
     mpfr_t x;
     view(x, &a);
-    return fmax(0, fabs(mpfr_get_d(x, MPFR_RNDZ)) - a.radius) * (1 - 4 * DBL_EPSILON);
+    return fmax(0, fabs(mpfr()->mpfr_get_d(x, MPFR_RNDZ)) - a.radius) * (1 - 4 * DBL_EPSILON);
 }
 
 static double most_size(struct gm_ball a)
 {
     mpfr_t x;
     view(x, &a);
-    return fabs(mpfr_get_d(x, MPFR_RNDA)) + a.radius;
+    return fabs(mpfr()->mpfr_get_d(x, MPFR_RNDA)) + a.radius;
 }
 
 static struct gm_ball unknown(void)
@@ -195,7 +212,7 @@ struct gm_ball gm_ball_divide(struct gm_ball a, struct gm_ball b)
         return unknown();
     }
     const double quotient = most_size(a) / least;
-    return combine(mpfr_div, &a, &b,
+    return combine(mpfr()->mpfr_div, &a, &b,
                    a.radius == 0 && b.radius == 0 ? 0 : (a.radius + quotient * b.radius) / least);
 }
 
@@ -221,56 +238,58 @@ struct gm_ball gm_ball_sqrt(struct gm_ball a)
 {
     const double x = gm_ball_midpoint(a);
     const bool zero = x == 0 && a.radius == 0;
-    return zero ? a : x >= a.radius ? map(mpfr_sqrt, &a, 1.0000001 / sqrt(x)) : unknown();
+    return zero ? a : x >= a.radius ? map(mpfr()->mpfr_sqrt, &a, 1.0000001 / sqrt(x)) : unknown();
 }
 
 struct gm_ball gm_ball_exp(struct gm_ball a)
 {
-    return map(mpfr_exp, &a, gm_exp(gm_ball_midpoint(a) + a.radius) * 1.0000001);
+    return map(mpfr()->mpfr_exp, &a, gm_exp(gm_ball_midpoint(a) + a.radius) * 1.0000001);
 }
 
 struct gm_ball gm_ball_log(struct gm_ball a)
 {
-    return gm_ball_sign(a) > 0 ? map(mpfr_log, &a, 1 / least_size(a)) : unknown();
+    return gm_ball_sign(a) > 0 ? map(mpfr()->mpfr_log, &a, 1 / least_size(a)) : unknown();
 }
 
 struct gm_ball gm_ball_sin(struct gm_ball a)
 {
-    return map(mpfr_sin, &a, 1);
+    return map(mpfr()->mpfr_sin, &a, 1);
 }
 
 struct gm_ball gm_ball_cos(struct gm_ball a)
 {
-    return map(mpfr_cos, &a, 1);
+    return map(mpfr()->mpfr_cos, &a, 1);
 }
 
 void gm_ball_forget(void)
 {
-    mpfr_free_cache();
+    if (used) {
+        mpfr()->mpfr_free_cache();
+    }
 }
 
 double gm_ball_midpoint(struct gm_ball a)
 {
     mpfr_t number;
     view(number, &a);
-    return mpfr_get_d(number, MPFR_RNDN);
+    return mpfr()->mpfr_get_d(number, MPFR_RNDN);
 }
 
 void gm_ball_print(struct gm_ball a, int digits, char *text, size_t size)
 {
     mpfr_t number;
     view(number, &a);
-    const double value = fabs(mpfr_get_d(number, MPFR_RNDN));
+    const double value = fabs(mpfr()->mpfr_get_d(number, MPFR_RNDN));
     const int before = value > 0 ? (int)floor(gm_log10(value)) + 1 : 1;
-    mpfr_snprintf(text, size, "%.*Rf", digits > before ? digits - before : 0, number);
+    mpfr()->mpfr_snprintf(text, size, "%.*Rf", digits > before ? digits - before : 0, number);
 }
 
 int gm_ball_sign(struct gm_ball a)
 {
     mpfr_t number;
     view(number, &a);
-    const double least = fabs(mpfr_get_d(number, MPFR_RNDZ));
-    return least > a.radius ? mpfr_sgn(number) : 0;
+    const double least = fabs(mpfr()->mpfr_get_d(number, MPFR_RNDZ));
+    return least > a.radius ? MPFR_SIGN(number) : 0;
 }
 
 bool gm_ball_is_zero(const struct gm_ball *a)

@@ -10,13 +10,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include <fontconfig/fontconfig.h>
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_MODULE_H
-#include FT_OUTLINE_H
-
 #include "render/cells/text.h"
+#include "render/drawing/fonts.h"
+
+GM_LIBRARY(gm_fonts, "libfontconfig.so.1", GM_FONT_FUNCTIONS)
 
 /* Letters are hinted only vertically and placed at quarters of a pixel: stems keep their distances and
    horizontal strokes are sharp. Large letters need no such care. */
@@ -78,12 +75,12 @@ static bool start_library(struct gm_glyphs *glyphs)
 {
     glyphs->memory =
         (struct FT_MemoryRec_){.user = glyphs, .alloc = take, .free = give_back, .realloc = take_more};
-    if (FT_New_Library(&glyphs->memory, &glyphs->library) != 0) {
+    if (gm_fonts()->FT_New_Library(&glyphs->memory, &glyphs->library) != 0) {
         return false;
     }
-    FT_Add_Default_Modules(glyphs->library);
+    gm_fonts()->FT_Add_Default_Modules(glyphs->library);
     if (glyphs->refused) {
-        FT_Done_Library(glyphs->library);
+        gm_fonts()->FT_Done_Library(glyphs->library);
     }
     return !glyphs->refused;
 }
@@ -96,26 +93,26 @@ struct font_wanted {
 static char *find_in(FcConfig *config, const char *family, bool bold)
 {
     char *file = NULL;
-    FcPattern *wanted = FcPatternCreate();
+    FcPattern *wanted = gm_fonts()->FcPatternCreate();
     if (!wanted) {
         return NULL;
     }
-    FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)family);
-    FcPatternAddInteger(wanted, FC_WEIGHT, bold ? FC_WEIGHT_BOLD : FC_WEIGHT_REGULAR);
-    FcPatternAddInteger(wanted, FC_SLANT, FC_SLANT_ROMAN);
-    FcPatternAddBool(wanted, FC_SCALABLE, FcTrue);
-    FcConfigSubstitute(config, wanted, FcMatchPattern);
-    FcDefaultSubstitute(wanted);
+    gm_fonts()->FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)family);
+    gm_fonts()->FcPatternAddInteger(wanted, FC_WEIGHT, bold ? FC_WEIGHT_BOLD : FC_WEIGHT_REGULAR);
+    gm_fonts()->FcPatternAddInteger(wanted, FC_SLANT, FC_SLANT_ROMAN);
+    gm_fonts()->FcPatternAddBool(wanted, FC_SCALABLE, FcTrue);
+    gm_fonts()->FcConfigSubstitute(config, wanted, FcMatchPattern);
+    gm_fonts()->FcDefaultSubstitute(wanted);
     FcResult result;
-    FcPattern *found = FcFontMatch(config, wanted, &result);
+    FcPattern *found = gm_fonts()->FcFontMatch(config, wanted, &result);
     FcChar8 *name = NULL;
-    if (found && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
+    if (found && gm_fonts()->FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
         file = strdup((const char *)name);
     }
     if (found) {
-        FcPatternDestroy(found);
+        gm_fonts()->FcPatternDestroy(found);
     }
-    FcPatternDestroy(wanted);
+    gm_fonts()->FcPatternDestroy(wanted);
     return file;
 }
 
@@ -126,13 +123,13 @@ static void find_fonts(const struct font_wanted wanted[GM_FONT_COUNT], char *fil
     /* a separate configuration, since others may use the global one; it is read once for all fonts, since
        reading takes longer than matching */
     errno = 0;
-    FcConfig *config = FcInitLoadConfigAndFonts();
+    FcConfig *config = gm_fonts()->FcInitLoadConfigAndFonts();
     for (int i = 0; config && i < GM_FONT_COUNT; i++) {
         files[i] = find_in(config, wanted[i].family, wanted[i].bold);
     }
     if (config) {
         const int error = errno;
-        FcConfigDestroy(config);
+        gm_fonts()->FcConfigDestroy(config);
         errno = error;
     }
 }
@@ -166,8 +163,8 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         const char *file = glyphs->files[i];
         const bool missing = !file && !short_of_memory;
-        FT_Error error =
-            file ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
+        FT_Error error = file ? gm_fonts()->FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i])
+                              : FT_Err_Out_Of_Memory;
         if (error != 0 && file && !has_space(file)) {
             error = FT_Err_Out_Of_Memory;
         }
@@ -196,10 +193,10 @@ void gm_glyphs_close(struct gm_glyphs *glyphs)
         return;
     }
     for (int i = 0; i < GM_FONT_COUNT; i++) {
-        FT_Done_Face(glyphs->faces[i]);
+        gm_fonts()->FT_Done_Face(glyphs->faces[i]);
         free(glyphs->files[i]);
     }
-    FT_Done_Library(glyphs->library);
+    gm_fonts()->FT_Done_Library(glyphs->library);
     free(glyphs->table);
     free(glyphs->pixels);
     free(glyphs);
@@ -208,7 +205,7 @@ void gm_glyphs_close(struct gm_glyphs *glyphs)
 static FT_Face face_of(struct gm_glyphs *glyphs, enum gm_font font, int height)
 {
     if (glyphs->sizes[font] != height) {
-        FT_Set_Pixel_Sizes(glyphs->faces[font], 0, (FT_UInt)height);
+        gm_fonts()->FT_Set_Pixel_Sizes(glyphs->faces[font], 0, (FT_UInt)height);
     }
     glyphs->sizes[font] = height;
     return glyphs->faces[font];
@@ -275,12 +272,12 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
         return glyph;
     }
     const FT_Face face = face_of(glyphs, font, height);
-    *glyph = (struct glyph){.used = true, .key = key, .index = FT_Get_Char_Index(face, code)};
+    *glyph = (struct glyph){.used = true, .key = key, .index = gm_fonts()->FT_Get_Char_Index(face, code)};
     glyphs->count++;
     if (glyph->index == 0) {
         note_lacking(code);
     }
-    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0) {
+    if (gm_fonts()->FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0) {
         glyph->advance = (float)face->glyph->linearHoriAdvance / 65536.0f;
     }
     return glyph;
@@ -328,11 +325,11 @@ static void glyph_draw(struct gm_glyphs *glyphs, struct glyph *glyph, enum gm_fo
 {
     glyph->drawn = true;
     const FT_Face face = face_of(glyphs, font, height);
-    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0) {
+    if (gm_fonts()->FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0) {
         return;
     }
-    FT_Outline_Translate(&face->glyph->outline, shift * 64 / SHIFTS, 0);
-    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
+    gm_fonts()->FT_Outline_Translate(&face->glyph->outline, shift * 64 / SHIFTS, 0);
+    if (gm_fonts()->FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
         return;
     }
     const FT_Bitmap *bitmap = &face->glyph->bitmap;

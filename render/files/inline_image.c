@@ -5,12 +5,12 @@
  * Sixels cover older ones without a trace, so the one rectangle around all changes is sent. */
 #include "render/files/images.h"
 
-#include <libdeflate.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/files/deflate.h"
 #include "render/grow.h"
 
 /* ---- sixels ---- */
@@ -387,8 +387,9 @@ struct gm_inline *gm_inline_open(enum gm_inline_kind kind, const struct gm_inlin
     if (kind == GM_INLINE_KITTY) {
         size_t size =
             (size_t)(TILE_COLUMNS * place->cell_width) * (size_t)(TILE_ROWS * place->cell_height) * 3;
-        image->compressor = libdeflate_alloc_compressor(LEVEL);
-        image->packed_size = image->compressor ? libdeflate_zlib_compress_bound(image->compressor, size) : 0;
+        image->compressor = gm_deflate()->libdeflate_alloc_compressor(LEVEL);
+        image->packed_size =
+            image->compressor ? gm_deflate()->libdeflate_zlib_compress_bound(image->compressor, size) : 0;
         image->raw = malloc(size);
         image->packed = malloc(image->packed_size + 1);
         good = good && image->compressor && image->raw && image->packed;
@@ -406,7 +407,7 @@ void gm_inline_close(struct gm_inline *image)
         return;
     }
     if (image->compressor) {
-        libdeflate_free_compressor(image->compressor);
+        gm_deflate()->libdeflate_free_compressor(image->compressor);
     }
     close_sixel(image->sixel);
     free(image->before);
@@ -518,8 +519,8 @@ static void put_tile(struct gm_inline *image, const unsigned char *rgb, const st
         memcpy(image->raw + (size_t)row * line,
                rgb + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * 3, line);
     }
-    size_t packed = libdeflate_zlib_compress(image->compressor, image->raw, line * (size_t)height,
-                                             image->packed, image->packed_size);
+    size_t packed = gm_deflate()->libdeflate_zlib_compress(
+        image->compressor, image->raw, line * (size_t)height, image->packed, image->packed_size);
     const size_t step = CHUNK / 4 * 3;
     put_place(image, patch);
     for (size_t at = 0; at < packed; at += step) {

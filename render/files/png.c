@@ -4,7 +4,6 @@
 #include "render/files/images.h"
 
 #include <errno.h>
-#include <libdeflate.h>
 #include <math.h>
 #include <png.h>
 #include <pthread.h>
@@ -13,9 +12,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/files/deflate.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
+
+/* clang-format off */
+#define PNG_FUNCTIONS(F) \
+    F(png_create_info_struct) F(png_create_read_struct_2) F(png_create_write_struct_2) \
+    F(png_destroy_read_struct) F(png_destroy_write_struct) F(png_get_error_ptr) F(png_get_image_height) \
+    F(png_get_mem_ptr) F(png_get_rowbytes) F(png_init_io) F(png_longjmp) F(png_read_end) F(png_read_info) \
+    F(png_read_row) F(png_read_update_info) F(png_set_IHDR) F(png_set_PLTE) F(png_set_expand) \
+    F(png_set_gray_to_rgb) F(png_set_interlace_handling) F(png_set_longjmp_fn) F(png_set_pHYs) \
+    F(png_set_scale_16) F(png_set_strip_alpha) F(png_set_tRNS) F(png_set_text) F(png_set_user_limits) \
+    F(png_sig_cmp) F(png_write_chunk) F(png_write_info)
+/* clang-format on */
+struct libpng {
+    PNG_FUNCTIONS(GM_LIBRARY_POINTER)
+};
+static const struct libpng *libpng(void);
+GM_LIBRARY(libpng, "libpng16.so.16", PNG_FUNCTIONS)
+GM_LIBRARY(gm_deflate, "libdeflate.so.0", GM_DEFLATE_FUNCTIONS)
 
 /* ---- memory ---- */
 
@@ -23,7 +40,7 @@
    sets to ENOMEM, because libpng may report another reason. */
 static png_voidp take(png_structp png, png_alloc_size_t size)
 {
-    int *error = png_get_mem_ptr(png);
+    int *error = libpng()->png_get_mem_ptr(png);
     void *block = malloc(size);
     if (!block) {
         *error = ENOMEM;
@@ -40,8 +57,8 @@ static void give_back(png_structp png, png_voidp block)
 /* The handlers of libpng's faults, whose pointer is a reason of GM_PNG_REASON bytes. The first jumps to png_jmpbuf. */
 static void note_error(png_structp png, png_const_charp text)
 {
-    snprintf(png_get_error_ptr(png), GM_PNG_REASON, "%s", text);
-    png_longjmp(png, 1);
+    snprintf(libpng()->png_get_error_ptr(png), GM_PNG_REASON, "%s", text);
+    libpng()->png_longjmp(png, 1);
 }
 
 static void ignore_warning(png_structp png, png_const_charp text)
@@ -52,7 +69,7 @@ static void ignore_warning(png_structp png, png_const_charp text)
 
 static void let_deflate_take(void)
 {
-    libdeflate_set_memory_allocator(malloc, free);
+    gm_deflate()->libdeflate_set_memory_allocator(malloc, free);
 }
 
 /* Must be called before libdeflate's first allocation. */
@@ -100,8 +117,9 @@ static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
     const size_t total = (row + 1) * height;
     unsigned char *rows = malloc(total);
     prepare_deflate();
-    struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(differences ? BEST : LEVEL);
-    const size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, total) : 0;
+    struct libdeflate_compressor *compressor =
+        gm_deflate()->libdeflate_alloc_compressor(differences ? BEST : LEVEL);
+    const size_t bound = compressor ? gm_deflate()->libdeflate_zlib_compress_bound(compressor, total) : 0;
     unsigned char *packed = bound ? malloc(bound) : NULL;
     *size = 0;
     for (size_t y = 0; rows && packed && y < height; y++) {
@@ -114,10 +132,10 @@ static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
         }
     }
     if (rows && packed) {
-        *size = libdeflate_zlib_compress(compressor, rows, total, packed, bound);
+        *size = gm_deflate()->libdeflate_zlib_compress(compressor, rows, total, packed, bound);
     }
     if (compressor) {
-        libdeflate_free_compressor(compressor);
+        gm_deflate()->libdeflate_free_compressor(compressor);
     }
     free(rows);
     if (*size == 0) {
@@ -135,8 +153,8 @@ static void set_palette(png_structp png, png_infop info, const uint8_t palette[G
         colours[i] = (png_color){palette[i][0], palette[i][1], palette[i][2]};
         opacities[i] = palette[i][3];
     }
-    png_set_PLTE(png, info, colours, GM_PALETTE);
-    png_set_tRNS(png, info, opacities, GM_PALETTE, NULL);
+    libpng()->png_set_PLTE(png, info, colours, GM_PALETTE);
+    libpng()->png_set_tRNS(png, info, opacities, GM_PALETTE, NULL);
 }
 
 /* The image data of a file, and the texts as libpng takes them. */
@@ -150,40 +168,40 @@ struct contents {
 static bool write_structure(FILE *out, const struct gm_png *image, const struct contents *contents,
                             int *error, char *reason)
 {
-    png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
-                                                error, take, give_back);
-    png_infop info = png ? png_create_info_struct(png) : NULL;
+    png_structp png = libpng()->png_create_write_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error,
+                                                          ignore_warning, error, take, give_back);
+    png_infop info = png ? libpng()->png_create_info_struct(png) : NULL;
     if (!info) {
-        png_destroy_write_struct(&png, NULL);
+        libpng()->png_destroy_write_struct(&png, NULL);
         *error = ENOMEM;
         return false;
     }
-    if (setjmp(png_jmpbuf(png))) {
-        png_destroy_write_struct(&png, &info);
+    if (setjmp(*libpng()->png_set_longjmp_fn(png, longjmp, sizeof(jmp_buf)))) {
+        libpng()->png_destroy_write_struct(&png, &info);
         return false;
     }
-    png_init_io(png, out);
-    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
-                 image->palette ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    libpng()->png_init_io(png, out);
+    libpng()->png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    libpng()->png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8,
+                           image->palette ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                           PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (image->palette) {
         set_palette(png, info, image->palette);
     }
     if (image->dpi > 0) {
         const png_uint_32 per_metre = (png_uint_32)lround(image->dpi / 0.0254);
-        png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
+        libpng()->png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
     }
-    png_set_text(png, info, contents->texts, (int)image->text_count);
-    png_write_info(png, info);
+    libpng()->png_set_text(png, info, contents->texts, (int)image->text_count);
+    libpng()->png_write_info(png, info);
     for (size_t at = 0; at < contents->packed_size; at += LONGEST_CHUNK) {
         size_t left = contents->packed_size - at;
-        png_write_chunk(png, (png_const_bytep) "IDAT", contents->packed + at,
-                        left < LONGEST_CHUNK ? left : LONGEST_CHUNK);
+        libpng()->png_write_chunk(png, (png_const_bytep) "IDAT", contents->packed + at,
+                                  left < LONGEST_CHUNK ? left : LONGEST_CHUNK);
     }
     /* png_write_end fails: libpng itself has written no image data */
-    png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
-    png_destroy_write_struct(&png, &info);
+    libpng()->png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
+    libpng()->png_destroy_write_struct(&png, &info);
     return true;
 }
 
@@ -264,11 +282,11 @@ static char *copy_of(const void *bytes, size_t size)
 static char *unpack(const unsigned char *packed, size_t size, size_t limit)
 {
     prepare_deflate();
-    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
+    struct libdeflate_decompressor *decompressor = gm_deflate()->libdeflate_alloc_decompressor();
     char *bytes = decompressor ? malloc(limit + 1) : NULL, *text = NULL;
     size_t length = 0;
-    if (bytes &&
-        libdeflate_zlib_decompress(decompressor, packed, size, bytes, limit, &length) == LIBDEFLATE_SUCCESS) {
+    if (bytes && gm_deflate()->libdeflate_zlib_decompress(decompressor, packed, size, bytes, limit,
+                                                          &length) == LIBDEFLATE_SUCCESS) {
         text = copy_of(bytes, length);
         if (text && strlen(text) != length) {
             free(text);
@@ -276,7 +294,7 @@ static char *unpack(const unsigned char *packed, size_t size, size_t limit)
         }
     }
     if (decompressor) {
-        libdeflate_free_decompressor(decompressor);
+        gm_deflate()->libdeflate_free_decompressor(decompressor);
     }
     free(bytes);
     return text;
@@ -347,7 +365,8 @@ static bool take_chunk(FILE *file, const char *type, size_t length, struct searc
         memcpy(bytes, type, TYPE);
         const struct chunk chunk = {bytes + TYPE, length, search->limit};
         const size_t i = is_text(type) ? wanted(search, chunk.data, length) : search->count;
-        good = libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
+        good =
+            gm_deflate()->libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
         if (good && i < search->count) {
             char *text = text_of(&chunk, type, strlen(search->keys[i]));
             good = text != NULL;
@@ -406,8 +425,8 @@ static bool read_texts(const char *path, struct search *search, char *message)
     size_t size = 0;
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
     const bool found = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
-                       png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
-                       find_texts(file, size - SIGNATURE, search, reason);
+                      libpng()->png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
+                      find_texts(file, size - SIGNATURE, search, reason);
     if (file) {
         fclose(file);
     }
@@ -451,38 +470,39 @@ bool gm_png_tells(const char *path, const char *key, const char *text)
    and reports no refusal. */
 static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
 {
-    png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
-                                               error, take, give_back);
-    png_infop info = png ? png_create_info_struct(png) : NULL;
+    png_structp png = libpng()->png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error,
+                                                         ignore_warning, error, take, give_back);
+    png_infop info = png ? libpng()->png_create_info_struct(png) : NULL;
     if (!info) {
-        png_destroy_read_struct(&png, NULL, NULL);
+        libpng()->png_destroy_read_struct(&png, NULL, NULL);
         *error = ENOMEM;
         return false;
     }
-    if (setjmp(png_jmpbuf(png))) {
-        png_destroy_read_struct(&png, &info, NULL);
+    if (setjmp(*libpng()->png_set_longjmp_fn(png, longjmp, sizeof(jmp_buf)))) {
+        libpng()->png_destroy_read_struct(&png, &info, NULL);
         return false;
     }
-    png_init_io(png, file);
-    png_read_info(png, info);
-    png_set_expand(png);
-    png_set_scale_16(png);
-    png_set_strip_alpha(png);
-    png_set_gray_to_rgb(png);
-    const int passes = png_set_interlace_handling(png);
-    png_read_update_info(png, info);
+    libpng()->png_init_io(png, file);
+    libpng()->png_read_info(png, info);
+    libpng()->png_set_expand(png);
+    libpng()->png_set_scale_16(png);
+    libpng()->png_set_strip_alpha(png);
+    libpng()->png_set_gray_to_rgb(png);
+    const int passes = libpng()->png_set_interlace_handling(png);
+    libpng()->png_read_update_info(png, info);
     const size_t row = 3 * (size_t)width;
-    if (png_get_image_height(png, info) != (png_uint_32)height || png_get_rowbytes(png, info) != row) {
+    if (libpng()->png_get_image_height(png, info) != (png_uint_32)height ||
+        libpng()->png_get_rowbytes(png, info) != row) {
         snprintf(reason, GM_REGULAR_REASON, "it is not a picture of %dx%d", width, height);
-        png_longjmp(png, 1);
+        libpng()->png_longjmp(png, 1);
     }
     for (int pass = 0; pass < passes; pass++) {
         for (size_t y = 0; y < (size_t)height; y++) {
-            png_read_row(png, rgb + y * row, NULL);
+            libpng()->png_read_row(png, rgb + y * row, NULL);
         }
     }
-    png_read_end(png, NULL);
-    png_destroy_read_struct(&png, &info, NULL);
+    libpng()->png_read_end(png, NULL);
+    libpng()->png_destroy_read_struct(&png, &info, NULL);
     return true;
 }
 

@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_GL_BACKEND_H
 #define GM_RENDER_GL_BACKEND_H
 
-#include "render/gl/library.h"
+#include "loader/library.h"
 
 /* A way to get a context, of which a process has one of each kind. */
 struct gm_backend {

@@ -10,38 +10,29 @@
 
 #include "render/gl/backend.h"
 
+/* clang-format off */
+#define FUNCTIONS(F) \
+    F(eglBindAPI) F(eglChooseConfig) F(eglCreateContext) F(eglDestroyContext) F(eglGetProcAddress) \
+    F(eglInitialize) F(eglMakeCurrent) F(eglQueryString) F(eglReleaseThread)
+/* clang-format on */
 static struct {
     EGLDisplay display;
     EGLContext context;
-    PFNEGLGETPROCADDRESSPROC get_proc_address;
-    PFNEGLQUERYSTRINGPROC query_string;
-    PFNEGLINITIALIZEPROC initialize;
-    PFNEGLBINDAPIPROC bind_api;
-    PFNEGLCHOOSECONFIGPROC choose_config;
-    PFNEGLCREATECONTEXTPROC create_context;
-    PFNEGLDESTROYCONTEXTPROC destroy_context;
-    PFNEGLMAKECURRENTPROC make_current;
-    PFNEGLRELEASETHREADPROC release_thread;
 } egl;
-
-static const struct gm_library_symbol symbols[] = {
-    {"eglGetProcAddress", &egl.get_proc_address}, {"eglQueryString", &egl.query_string},
-    {"eglInitialize", &egl.initialize},           {"eglBindAPI", &egl.bind_api},
-    {"eglChooseConfig", &egl.choose_config},      {"eglCreateContext", &egl.create_context},
-    {"eglDestroyContext", &egl.destroy_context},  {"eglMakeCurrent", &egl.make_current},
-    {"eglReleaseThread", &egl.release_thread},
-};
+static struct {
+    FUNCTIONS(GM_LIBRARY_POINTER)
+} functions;
 
 static bool use(void)
 {
-    return egl.bind_api(EGL_OPENGL_API) &&
-           egl.make_current(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl.context);
+    return functions.eglBindAPI(EGL_OPENGL_API) &&
+           functions.eglMakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl.context);
 }
 
 static void release(void)
 {
-    egl.make_current(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    egl.release_thread();
+    functions.eglMakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    functions.eglReleaseThread();
 }
 
 /* The display is not terminated: EGL shares it between all contexts of the process. */
@@ -49,27 +40,27 @@ static void close_context(void)
 {
     if (egl.context != EGL_NO_CONTEXT) {
         release();
-        egl.destroy_context(egl.display, egl.context);
+        functions.eglDestroyContext(egl.display, egl.context);
         egl.context = EGL_NO_CONTEXT;
     }
 }
 
 static const char *open_context(void *library)
 {
-    if (!gm_library_find(library, symbols, sizeof symbols / sizeof *symbols)) {
+    if (!gm_library_find(library, FUNCTIONS(GM_LIBRARY_NAME), &functions)) {
         return "EGL is too old";
     }
-    const char *extensions = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const char *extensions = functions.eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!extensions || !strstr(extensions, "EGL_MESA_platform_surfaceless")) {
         return "EGL has no surfaceless platform";
     }
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
-        (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl.get_proc_address("eglGetPlatformDisplayEXT");
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)functions.eglGetProcAddress("eglGetPlatformDisplayEXT");
     if (!get_platform_display) {
         return "EGL has no eglGetPlatformDisplayEXT";
     }
     egl.display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (egl.display == EGL_NO_DISPLAY || !egl.initialize(egl.display, NULL, NULL)) {
+    if (egl.display == EGL_NO_DISPLAY || !functions.eglInitialize(egl.display, NULL, NULL)) {
         return "EGL gives no surfaceless display";
     }
     static const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -82,11 +73,11 @@ static const char *open_context(void *library)
                                         EGL_NONE};
     EGLConfig config = NULL;
     EGLint count = 0;
-    if (!egl.bind_api(EGL_OPENGL_API) || !egl.choose_config(egl.display, wanted, &config, 1, &count) ||
-        count < 1) {
+    if (!functions.eglBindAPI(EGL_OPENGL_API) ||
+        !functions.eglChooseConfig(egl.display, wanted, &config, 1, &count) || count < 1) {
         return "EGL offers no configuration for OpenGL";
     }
-    egl.context = egl.create_context(egl.display, config, EGL_NO_CONTEXT, attributes);
+    egl.context = functions.eglCreateContext(egl.display, config, EGL_NO_CONTEXT, attributes);
     return egl.context != EGL_NO_CONTEXT && use() ? NULL : "EGL gives no OpenGL 3.3 context";
 }
 
@@ -98,7 +89,7 @@ static void *load(char *message, size_t size)
 
 static gm_library_function find(const char *name)
 {
-    return (gm_library_function)egl.get_proc_address(name);
+    return (gm_library_function)functions.eglGetProcAddress(name);
 }
 
 const struct gm_backend gm_backend_egl = {load, open_context, close_context, use, release, find};

@@ -11,38 +11,33 @@
 
 enum { SIDE = 16 }; /* side in pixels of the buffer that a context must have; nothing is drawn there */
 
+/* clang-format off */
+#define FUNCTIONS(F) \
+    F(OSMesaCreateContextAttribs) F(OSMesaDestroyContext) F(OSMesaMakeCurrent) F(OSMesaGetProcAddress)
+/* clang-format on */
 static struct {
     OSMesaContext context;
-    OSMesaContext (*create)(const int *attributes, OSMesaContext shared);
-    void (*destroy)(OSMesaContext context);
-    GLboolean (*make_current)(OSMesaContext context, void *buffer, GLenum type, GLsizei width,
-                              GLsizei height);
-    OSMESAproc (*get_proc_address)(const char *name);
     unsigned char buffer[SIDE * SIDE * 4];
 } osmesa;
-
-static const struct gm_library_symbol symbols[] = {
-    {"OSMesaCreateContextAttribs", &osmesa.create},
-    {"OSMesaDestroyContext", &osmesa.destroy},
-    {"OSMesaMakeCurrent", &osmesa.make_current},
-    {"OSMesaGetProcAddress", &osmesa.get_proc_address},
-};
+static struct {
+    FUNCTIONS(GM_LIBRARY_POINTER)
+} mesa;
 
 static bool use(void)
 {
-    return osmesa.make_current(osmesa.context, osmesa.buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
+    return mesa.OSMesaMakeCurrent(osmesa.context, osmesa.buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
 }
 
 static void release(void)
 {
-    osmesa.make_current(NULL, NULL, 0, 0, 0);
+    mesa.OSMesaMakeCurrent(NULL, NULL, 0, 0, 0);
 }
 
 static void close_context(void)
 {
     if (osmesa.context) {
         release();
-        osmesa.destroy(osmesa.context);
+        mesa.OSMesaDestroyContext(osmesa.context);
         osmesa.context = NULL;
     }
 }
@@ -70,16 +65,16 @@ static const char *open_context(void *library)
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      3,
                                      0};
-    if (!gm_library_find(library, symbols, sizeof symbols / sizeof *symbols)) {
+    if (!gm_library_find(library, FUNCTIONS(GM_LIBRARY_NAME), &mesa)) {
         return "libOSMesa is too old";
     }
-    osmesa.context = osmesa.create(attributes, NULL);
+    osmesa.context = mesa.OSMesaCreateContextAttribs(attributes, NULL);
     return osmesa.context && use() ? NULL : "OSMesa gives no OpenGL 3.3 context";
 }
 
 static gm_library_function find(const char *name)
 {
-    return (gm_library_function)osmesa.get_proc_address(name);
+    return (gm_library_function)mesa.OSMesaGetProcAddress(name);
 }
 
 const struct gm_backend gm_backend_osmesa = {load, open_context, close_context, use, release, find};

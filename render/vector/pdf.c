@@ -14,8 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "loader/library.h"
 #include "render/address_space.h"
-#include "render/gl/library.h"
+#include "render/drawing/fonts.h"
 #include "render/message.h"
 
 /* ---- Cairo ---- */
@@ -49,10 +50,9 @@ static char reason[GM_MESSAGE];
 static void open_once(void)
 {
     static const char *const names[] = {"libcairo.so.2", NULL};
-#define SYMBOL(name) {"cairo_" #name, &cairo.name},
-    static const struct gm_library_symbol symbols[] = {GM_CAIRO_FUNCTIONS(SYMBOL)};
+#define GM_CAIRO_NAME(name) GM_LIBRARY_NAME(cairo_##name)
     void *library = gm_library_open(names, reason, sizeof reason);
-    opened = library && gm_library_find(library, symbols, sizeof symbols / sizeof *symbols);
+    opened = library && gm_library_find(library, GM_CAIRO_FUNCTIONS(GM_CAIRO_NAME), &cairo);
     if (library && !opened) {
         gm_refuse(reason, "libcairo is too old");
     }
@@ -222,14 +222,14 @@ static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 /* Returns the font of a file; NULL when out of memory. */
 static cairo_font_face_t *font_of(const char *file)
 {
-    FcPattern *pattern = FcPatternCreate();
+    FcPattern *pattern = gm_fonts()->FcPatternCreate();
     if (!pattern) {
         return NULL;
     }
-    FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)file);
-    FcPatternAddInteger(pattern, FC_INDEX, 0);
+    gm_fonts()->FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)file);
+    gm_fonts()->FcPatternAddInteger(pattern, FC_INDEX, 0);
     cairo_font_face_t *font = cairo.ft_font_face_create_for_pattern(pattern);
-    FcPatternDestroy(pattern);
+    gm_fonts()->FcPatternDestroy(pattern);
     return font;
 }
 

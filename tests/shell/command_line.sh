@@ -601,6 +601,30 @@ LD_LIBRARY_PATH=$PWD/lost status 0 again lost/osmesa.png -o lost/again.png --pai
 cmp -s lost/own.png lost/again.png || fail 'again --painter own is not own'
 refused 3 'a PDF needs Cairo, but .*libcairo.so.2: file too short$' render disc until=1 -o broken/a.pdf
 status 0 run disc steps=1
+# a run opens few libraries, none of those that draw, pack, prove or know terminals; each is missed by what needs it
+ldd "$geomint" >out
+[ "$(grep -vc 'lib[a-z]*san\.so' out)" -le 6 ] || fail "the program is linked to more than 6 libraries: $(cat out)"
+for scene in kepler couette; do
+    LD_LIBRARY_PATH='' LD_DEBUG=libs "$geomint" run $scene steps=1 2>&1 >/dev/null | grep 'calling init' >out
+    [ $scene = couette ] || [ "$(grep -vc 'lib[a-z]*san\.so' out)" -le 6 ] || fail "run opens more than 6 libraries: $(cat out)"
+    if grep -E 'lib(cairo|deflate|expat|fontconfig|freetype|gmp|mpfr|ncursesw|png16|tinfo)\.' out; then
+        fail "run $scene opens a library that it does not need"
+    fi
+done
+mkdir absent
+for library in libdeflate.so.0 libfontconfig.so.1 libmpfr.so.6 libncursesw.so.6 libpng16.so.16; do
+    : >absent/$library
+done
+export LD_LIBRARY_PATH="$PWD/absent"
+missed='^geomint: a library is needed here, but .*/absent/lib'
+status 0 run kepler steps=1
+refused 3 "${missed}mpfr.so.6: file too short$" certify verlet
+refused 3 "${missed}deflate.so.0: file too short$" run kepler steps=1 --save absent/a.npz
+refused 3 "${missed}fontconfig.so.1: file too short$" render kepler steps=1 -o absent/a.svg
+refused 3 "${missed}ncursesw.so.6: file too short$" terminal
+rm absent/libfontconfig.so.1 absent/libdeflate.so.0
+refused 3 "${missed}png16.so.16: file too short$" render kepler steps=1 --painter own -o absent/a.png
+[ -z "$(ls absent | grep -v '^lib')" ] || fail "a library is missing, and something is written: $(ls absent)"
 unset LD_LIBRARY_PATH
 status 0 terminal
 grep -q "painter  *own  *in the terminal$" out || fail 'terminal does not say what paints'

@@ -14,7 +14,7 @@ import sys
 
 source, build = os.path.realpath(sys.argv[1]), os.path.realpath(sys.argv[2])
 long = "--long" in sys.argv
-LAYERS = ("core", "render", "scenes", "app", "library")
+LAYERS = ("loader", "core", "render", "scenes", "app", "library")
 KINDS = open(os.path.join(source, "core/kinds.def"), encoding="utf-8").read()
 MOST_ROOMS = 16  # in a folder; about fifteen
 WINGS = tuple("core/" + kind for kind in re.findall(r"^GM_KIND\((\w+)\)", KINDS, re.M))

@@ -16,6 +16,7 @@ forbid() {
     fi
 }
 
+forbid loader '(core|render|scenes|app|library|tests)/'
 forbid core '(render|scenes|app|library|tests)/'
 forbid core '(curses|ncurses|png|GL|EGL)'
 forbid render '(core|scenes|app|library|tests)/'
@@ -87,8 +88,8 @@ if [ -n "$found" ]; then
 fi
 
 # every include of the project's own names its folder
-found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app library tests |
-    grep -vE '"(core|render|scenes|app|library|tests)/')
+found=$(grep -rnE --include='*.[ch]' "${include}\"" core loader render scenes app library tests |
+    grep -vE '"(core|loader|render|scenes|app|library|tests)/')
 if [ -n "$found" ]; then
     printf 'includes are rooted at the top folder:\n%s\n' "$found"
     status=1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint --version: the program, its features here, and its libraries. Cairo and CHOLMOD are loaded only
-   for PDF and for flows; their versions are those of the build. `geomint terminal` reports the painter. */
+/* geomint --version: the program, its features here, and its libraries. All but GSL are loaded when
+   they are needed; their versions are those of the build. `geomint terminal` reports the painter. */
 #include <curses.h>
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -15,27 +15,18 @@
 #include "app/commands/reference/reference.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
-#include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "render/pixels/canvas.h"
 #include "render/vector/vector.h"
 
 static void print_libraries(void)
 {
-    int major = 0, minor = 0, patch = 0;
-    FT_Library freetype;
-    if (FT_Init_FreeType(&freetype) != 0) {
-        gm_memory_refused(); /* nothing else keeps it from starting */
-        return;
-    }
-    FT_Library_Version(freetype, &major, &minor, &patch);
-    FT_Done_FreeType(freetype);
-    int fonts = FcGetVersion();
-    printf("libpng %s, libdeflate %s, FreeType %d.%d.%d, fontconfig %d.%d.%d\n", png_get_libpng_ver(NULL),
-           LIBDEFLATE_VERSION_STRING, major, minor, patch, fonts / 10000, fonts / 100 % 100, fonts % 100);
+    printf("libpng %s, libdeflate %s, FreeType %d.%d.%d, fontconfig %d.%d.%d\n", PNG_LIBPNG_VER_STRING,
+           LIBDEFLATE_VERSION_STRING, FREETYPE_MAJOR, FREETYPE_MINOR, FREETYPE_PATCH, FC_MAJOR, FC_MINOR,
+           FC_REVISION);
     printf("Cairo %s\n", CAIRO_VERSION_STRING);
-    printf("%s, GSL %s, CHOLMOD %d.%d.%d\n", curses_version(), gsl_version, CHOLMOD_MAIN_VERSION,
-           CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION);
+    printf("ncurses %s.%d, GSL %s, CHOLMOD %d.%d.%d\n", NCURSES_VERSION, NCURSES_VERSION_PATCH, gsl_version,
+           CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION);
 }
 
 /* Looks for external programs without starting them. */

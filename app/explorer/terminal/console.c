@@ -2,7 +2,6 @@
 /* The terminal as a device: modes, keys, signals, and every way out of it. */
 #include "app/explorer/terminal/device.h"
 
-#include <curses.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -17,6 +16,7 @@
 #include <unistd.h>
 
 #include "app/base/interrupt.h"
+#include "app/explorer/terminal/curses.h"
 #include "app/words/request.h"
 #include "core/basics.h"
 #include "render/clock.h"
@@ -204,8 +204,8 @@ static void take_over(void)
 {
     active = 1;
     /* Draws a blank screen, once: here ncurses switches to the alternate screen. */
-    clearok(stdscr, TRUE);
-    refresh();
+    gm_curses()->clearok(*gm_curses()->stdscr, TRUE);
+    gm_curses()->wrefresh(*gm_curses()->stdscr);
     say_mouse(GM_MOUSE_ON);
 }
 
@@ -214,12 +214,12 @@ static void give_back(void)
     say_mouse(GM_MOUSE_OFF);
     /* ncurses did not draw, so it does not know the current attributes */
     if (gm_capability("sgr0")) {
-        putp(gm_capability("sgr0"));
+        gm_curses()->putp(gm_capability("sgr0"));
     }
     /* clear even with an alternate screen: GNU screen claims one and mostly has none */
-    clearok(stdscr, TRUE);
-    refresh();
-    endwin();
+    gm_curses()->clearok(*gm_curses()->stdscr, TRUE);
+    gm_curses()->wrefresh(*gm_curses()->stdscr);
+    gm_curses()->endwin();
     active = 0;
 }
 
@@ -252,14 +252,14 @@ static void close_input(void)
 /* Defines the ordinary sequences, which are the ones typed before keypad() changes them. */
 static void define_ordinary_arrows(void)
 {
-    define_key("\033[A", KEY_UP);
-    define_key("\033[B", KEY_DOWN);
-    define_key("\033[C", KEY_RIGHT);
-    define_key("\033[D", KEY_LEFT);
-    define_key("\033[1;2A", KEY_SR); /* with shift, which few terminfo entries name */
-    define_key("\033[1;2B", KEY_SF);
-    define_key("\033[1;2C", KEY_SRIGHT);
-    define_key("\033[1;2D", KEY_SLEFT);
+    gm_curses()->define_key("\033[A", KEY_UP);
+    gm_curses()->define_key("\033[B", KEY_DOWN);
+    gm_curses()->define_key("\033[C", KEY_RIGHT);
+    gm_curses()->define_key("\033[D", KEY_LEFT);
+    gm_curses()->define_key("\033[1;2A", KEY_SR); /* with shift, which few terminfo entries name */
+    gm_curses()->define_key("\033[1;2B", KEY_SF);
+    gm_curses()->define_key("\033[1;2C", KEY_SRIGHT);
+    gm_curses()->define_key("\033[1;2D", KEY_SLEFT);
 }
 
 static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
@@ -276,31 +276,31 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
         return gm_refuse(message, "There is no room for the keys: %s.", strerror(errno));
     }
     handle_all();
-    screen = newterm(NULL, stdout, input);
+    screen = gm_curses()->newterm(NULL, stdout, input);
     if (!screen) {
         unhandle_all();
         close_input();
         return gm_refuse(message, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
     }
     active = 1;
-    set_escdelay(25);
-    cbreak();
-    noqiflush(); /* a signal's key would discard half of a sequence */
-    noecho();
-    nonl();
-    curs_set(0);
-    keys = newpad(1, 1);
+    gm_curses()->set_escdelay(25);
+    gm_curses()->cbreak();
+    gm_curses()->noqiflush(); /* a signal's key would discard half of a sequence */
+    gm_curses()->noecho();
+    gm_curses()->nonl();
+    gm_curses()->curs_set(0);
+    keys = gm_curses()->newpad(1, 1);
     if (!keys) {
         gm_console_close();
         gm_console_release();
         return gm_refuse(message, "There is not enough memory.");
     }
-    keypad(keys, TRUE);
+    gm_curses()->keypad(keys, TRUE);
     define_ordinary_arrows();
-    nodelay(keys, TRUE);
-    reports_mouse = tigetnum("colors") >= 8; /* old terminals would show the letters */
-    define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
-    prepare_parting(tigetnum("colors") >= 256);
+    gm_curses()->nodelay(keys, TRUE);
+    reports_mouse = gm_curses()->tigetnum("colors") >= 8; /* old terminals would show the letters */
+    gm_curses()->define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
+    prepare_parting(gm_curses()->tigetnum("colors") >= 256);
     take_over();
     static bool registered;
     if (!registered) {
@@ -329,9 +329,9 @@ void gm_console_close(void)
         give_back();
     }
     if (keys) {
-        delwin(keys);
+        gm_curses()->delwin(keys);
     }
-    delscreen(screen);
+    gm_curses()->delscreen(screen);
     close_input();
     keys = NULL;
     screen = NULL;
@@ -373,14 +373,14 @@ static void feed(void)
         size = gm_answers_release(answers, typed);
     }
     if (size > 0 && write(feed_fd, typed, size) < 0) {
-        beep(); /* these keys are lost */
+        gm_curses()->beep(); /* these keys are lost */
     }
 }
 
 int gm_console_key(void)
 {
     feed();
-    int key = wgetch(keys);
+    int key = gm_curses()->wgetch(keys);
     return key == ERR ? -1 : key;
 }
 
@@ -396,7 +396,7 @@ bool gm_console_resized(void)
     if (was) {
         int columns, rows;
         gm_terminal_size(&columns, &rows);
-        resizeterm(rows, columns);
+        gm_curses()->resizeterm(rows, columns);
     }
     return was;
 }
@@ -419,8 +419,8 @@ void gm_console_stop(void)
     if (leaving) {
         return;
     }
-    reset_prog_mode();
-    curs_set(0);
+    gm_curses()->reset_prog_mode();
+    gm_curses()->curs_set(0);
     take_over();
     resized = 1;
 }

@@ -2,7 +2,6 @@
 /* Decides how to show pictures, from options, environment, answers and terminfo, and records the reasons. */
 #include "app/explorer/terminal/device.h"
 
-#include <curses.h>
 #include <langinfo.h>
 #include <locale.h>
 #include <stdio.h>
@@ -10,18 +9,17 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/ioctl.h>
-#include <term.h>
 #include <unistd.h>
 
 #include "app/base/arguments.h"
+#include "app/explorer/terminal/curses.h"
 #include "app/output/say.h"
 #include "core/basics.h"
 #include "core/memory.h"
 #include "render/message.h"
 #include "render/pixels/canvas.h"
 
-#undef columns /* term.h defines these short names as macros */
-#undef lines
+GM_LIBRARY(gm_curses, "libncursesw.so.6", GM_CURSES_NAMES)
 
 static const char *const colours_names[] = {"none", "16", "256", "truecolor", NULL};
 static const char *const graphics_names[] = {"kitty", "sixel", "braille", "quadrants", "half", "ascii", NULL};
@@ -330,11 +328,11 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
     terminal->utf8 = strcasecmp(terminal->codeset, "UTF-8") == 0;
     int error;
     terminal->terminfo_colours = -1;
-    if (*terminal->name && setupterm(terminal->name, STDOUT_FILENO, &error) == OK) {
-        terminal->terminfo_colours = tigetnum("colors");
-        const char *address = tigetstr("cup");
+    if (*terminal->name && gm_curses()->setupterm(terminal->name, STDOUT_FILENO, &error) == OK) {
+        terminal->terminfo_colours = gm_curses()->tigetnum("colors");
+        const char *address = gm_curses()->tigetstr("cup");
         terminal->known = address && address != (char *)-1;
-        del_curterm(cur_term);
+        gm_curses()->del_curterm(*gm_curses()->cur_term);
     }
     gm_terminal_size(&terminal->columns, &terminal->rows);
     struct winsize size = {0};

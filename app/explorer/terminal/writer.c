@@ -2,7 +2,6 @@
 /* Writes the differences between screens to a terminal, without blocking. */
 #include "app/explorer/terminal/device.h"
 
-#include <curses.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -13,6 +12,7 @@
 #include <unistd.h>
 
 #include "app/explorer/surface/surface.h"
+#include "app/explorer/terminal/curses.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 #include "render/files/images.h"
@@ -138,7 +138,7 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
 
 const char *gm_capability(const char *name)
 {
-    const char *text = tigetstr(name);
+    const char *text = gm_curses()->tigetstr(name);
     return text == (char *)-1 ? NULL : text;
 }
 
@@ -192,8 +192,8 @@ static void put_colour(struct gm_writer *writer, long number, bool ground)
     } else if (writer->colours == GM_COLOURS_256) {
         put_format(writer, "\033[%d;5;%ldm", ground ? 48 : 38, number);
     } else if (writer->set_foreground) {
-        put_capability(writer, tiparm(ground ? writer->set_background : writer->set_foreground,
-                                      (int)(writer->bright ? number : number & 7)));
+        put_capability(writer, gm_curses()->tiparm(ground ? writer->set_background : writer->set_foreground,
+                                                   (int)(writer->bright ? number : number & 7)));
     } else {
         put_format(writer, "\033[%ldm", (number < 8 ? 30 + number : 82 + number) + (ground ? 10 : 0));
     }
@@ -341,7 +341,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                 }
             }
             if (writer->row != row || writer->column != column) {
-                put_capability(writer, tiparm(writer->place, row, column));
+                put_capability(writer, gm_curses()->tiparm(writer->place, row, column));
                 writer->row = row;
                 writer->column = column;
             }
@@ -490,8 +490,8 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
     if (!writer->set_background) {
         writer->set_foreground = NULL;
     }
-    writer->bright = tigetnum("colors") >= 16 || !writer->set_foreground;
-    writer->corner = tigetflag("am") <= 0 || tigetflag("xenl") > 0;
+    writer->bright = gm_curses()->tigetnum("colors") >= 16 || !writer->set_foreground;
+    writer->corner = gm_curses()->tigetflag("am") <= 0 || gm_curses()->tigetflag("xenl") > 0;
     /* A second descriptor can be non-blocking without changing the shell's. */
     const char *name = ttyname(STDOUT_FILENO);
     if (name) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared libraries, and the reason why one cannot be opened. */
-#include "render/gl/library.h"
+#include "loader/library.h"
 
 #include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #ifdef RTLD_DEEPBIND
@@ -54,15 +55,32 @@ void *gm_library_open(const char *const *names, char *message, size_t size)
     return NULL;
 }
 
-bool gm_library_find(void *library, const struct gm_library_symbol *symbols, size_t count)
+bool gm_library_find(void *library, const char *names, void *pointers)
 {
-    for (size_t i = 0; i < count; i++) {
+    unsigned char *pointer = pointers;
+    for (const char *name = names; *name; name += strlen(name) + 1, pointer += sizeof(void *)) {
         /* dlsym returns functions as data pointers; POSIX lets their representation be copied */
-        void **function = symbols[i].function;
-        *function = dlsym(library, symbols[i].name);
-        if (!*function) {
+        void *found = dlsym(library, name);
+        memcpy(pointer, &found, sizeof found);
+        if (!found) {
             return false;
         }
     }
     return true;
+}
+
+void gm_library_require(const char *file, const char *names, void *pointers)
+{
+    enum { NO_FILE = 3, NO_MEMORY = 5 }; /* exit statuses */
+    char reason[512];
+    void *library = gm_library_open((const char *const[]){file, NULL}, reason, sizeof reason);
+    if (library && !gm_library_find(library, names, pointers)) {
+        snprintf(reason, sizeof reason, "%s is too old", file);
+        library = NULL;
+    }
+    if (!library) {
+        const bool short_of_memory = strstr(reason, "memory") != NULL;
+        fprintf(stderr, "geomint: a library is needed here, but %s\n", reason);
+        exit(short_of_memory ? NO_MEMORY : NO_FILE);
+    }
 }
