@@ -498,7 +498,7 @@ static void print_schemes(const struct report *report)
         print_names(report, NULL);
     }
     if (report->system.kind == GM_FIELD && !report->system.alone) {
-        if (report->wave.known) {
+        if (report->wave.sine_gordon) {
             printf("\nand on a moving mesh, with exact means of V\n");
         } else {
             printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
