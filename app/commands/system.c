@@ -308,12 +308,80 @@ static void print_parameters(const struct report *report)
     }
 }
 
+/* The lines of a mesh equation, which are kept as texts, as they are printed. */
+static const struct {
+    enum gm_system_word word;
+    const char *left, *latex;
+} mesh_lines[] = {{GM_WORD_DENSITY, "density", "\\rho"},
+                  {GM_WORD_MESH, "X", "X"},
+                  {GM_WORD_CELL, "cell", "L_{\\mathrm{cell}}"},
+                  {GM_WORD_BETWEEN, "v between nodes", "v"}};
+
+/* Returns the formula of a mesh line, behind its X = ; NULL: the file has no such line. */
+static const char *mesh_formula(const struct report *report, size_t i)
+{
+    const char *text = report->system.texts[mesh_lines[i].word],
+               *equals = text && mesh_lines[i].word == GM_WORD_MESH ? strchr(text, '=') : NULL;
+    return equals ? equals + 1 + strspn(equals + 1, " ") : text;
+}
+
+/* Names as variables in the order in which a formula has them. */
+enum { MOST_NAMES = 32 };
+struct names {
+    struct gm_arena *arena;
+    struct gm_formula graph;
+    const char *name[MOST_NAMES];
+    size_t count;
+};
+
+static enum gm_meaning find_any(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    struct names *names = data;
+    const char *text = gm_arena_print(names->arena, "%.*s", (int)name->length, name->text);
+    size_t i = 0;
+    while (i < names->count && strcmp(names->name[i], text) != 0) {
+        i++;
+    }
+    if (i == MOST_NAMES) {
+        sentence[0] = '\0';
+        return GM_REFUSED;
+    }
+    names->name[i] = text;
+    names->count += i == names->count;
+    *node = gm_formula_variable(&names->graph, i);
+    return GM_KNOWN;
+}
+
+static const char *any_name(size_t number, const void *data)
+{
+    return ((const struct names *)data)->name[number];
+}
+
+/* Returns a formula of any names in LaTeX; dots for one that is no formula, or too long. */
+static const char *latex_of(const struct report *report, const char *text)
+{
+    struct names names = {.arena = report->arena};
+    const struct gm_scope scope = {.find = find_any, .data = &names};
+    const struct gm_naming naming = {.variable = any_name, .data = &names};
+    struct gm_fault fault = {0};
+    gm_node_id node;
+    gm_formula_open(&names.graph);
+    char *latex = gm_formula_read(&names.graph, text, 0, strlen(text), &scope, &node, &fault)
+                      ? gm_formula_latex(&names.graph, node, &naming)
+                      : NULL;
+    gm_formula_close(&names.graph);
+    return latex ? gm_arena_keep(report->arena, latex, free) : "\\ldots";
+}
+
 static void print_equations(const struct report *report)
 {
     const struct gm_user_system *system = &report->system;
     printf("\nequations\n");
-    if (system->alone) {
-        gm_print_wrapped(system->texts[GM_WORD_CELL], printf("  cell = "), 6);
+    for (size_t i = 0; i < GM_COUNT(mesh_lines) && system->n > 0; i++) {
+        const char *text = mesh_formula(report, i);
+        if (text) {
+            gm_print_wrapped(text, printf("  %s = ", mesh_lines[i].left), 6);
+        }
     }
     for (size_t i = 0, k = 0; i < report->equation_count; i++, k++) {
         const struct equation *line = &report->equations[i];
@@ -533,7 +601,7 @@ static void print_schemes(const struct report *report)
         print_names(report, NULL);
     }
     if (report->system.kind == GM_FIELD && !report->system.alone) {
-        if (report->wave.known) {
+        if (report->wave.sine_gordon) {
             printf("\nand on a moving mesh, with exact means of V\n");
         } else {
             printf("\nand on a moving mesh, with means of V by %zu of Gauss's points\n",
@@ -691,14 +759,29 @@ static void print_forces(struct report *report, size_t coordinate)
 static void print_latex(struct report *report)
 {
     const size_t half = report->system.n / 2;
+    const char *between = "";
     printf("\\begin{align}\n");
     for (size_t i = 0, rate = 0; i < report->equation_count; i++) {
         const struct equation *line = &report->equations[i];
-        printf("%s  %s &= %s", i > 0 ? " \\\\\n" : "", line->left, formula_of(report, line->node, true));
+        printf("%s  %s &= %s", between, line->left, formula_of(report, line->node, true));
+        between = " \\\\\n";
         rate += line->section == RATE;
         if (line->section == RATE && rate > half && !gm_system_is_field(&report->system)) {
             print_forces(report, rate - 1 - half);
         }
+    }
+    for (size_t i = 0; i < GM_COUNT(mesh_lines); i++) {
+        const char *text = mesh_formula(report, i);
+        if (text) {
+            printf("%s  %s &= %s", between, mesh_lines[i].latex, latex_of(report, text));
+            between = " \\\\\n";
+        }
+    }
+    if (report->system.alone) {
+        printf("%s  \\frac{\\mathrm{d}}{\\mathrm{d}t}\\frac{\\partial L}{\\partial\\dot{x}_k} &= "
+               "\\frac{\\partial L}{\\partial x_k},\\quad L = \\textstyle\\sum L_{\\mathrm{cell}},\\quad "
+               "d = x_{k+1} - x_k,\\quad m = (x_k + x_{k+1})/2",
+               between);
     }
     printf("\n\\end{align}\n");
 }

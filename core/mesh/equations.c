@@ -3,7 +3,7 @@
    stages i, with p = dL/dqdot of the field's Lagrangian L (and the cells'),
        Q_i = q_n + h sum_j a_ij Qdot_j
        P_i = p_n + h sum_j abar_ij F_j,   P_i = dL/dqdot(Q_i, Qdot_i),   F_j = dL/dq(Q_j, Qdot_j)
-   The rows of y are always these. Those of X are
+   The rows of y are always these; the rows of X are
        known        X_i = F(x, t_n + c_i h),   Xdot_i = F_t;   uniform: F = x. No rows, no unknowns
        held         g(Q_i) = 0,   Dg(Q_i) Qdot_i = 0; unknowns X_i and Xdot_i: the control-theoretic strategy
        smoothed     E Xdot_i = g(Q_i),   E = 2 length T / (N + 1)^3: with density 1 the slowest mode of the mesh decays as
@@ -28,7 +28,7 @@
 #include <string.h>
 
 #include "core/functions/functions.h"
-#include "core/mesh/solver.h"
+#include "core/mesh/equations.h"
 
 struct gm_mesh_layout gm_mesh_layout_of(const struct gm_mesh_row *row, const struct gm_mesh *mesh)
 {

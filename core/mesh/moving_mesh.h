@@ -30,7 +30,6 @@ struct gm_potential {
                    double *w_mr, double *w_rr);
 };
 extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
-extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
 /* The mesh density rho that a mesh equidistributes: every element has the same
        ell = d^2 (P(left end) + P(right end)) / 2,   P = rho^2,
@@ -136,12 +135,18 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
    the same. */
 bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const double *state, double *out);
 
-/* The discrete energy E_N (their eq. 169). */
-double gm_mesh_energy(const struct gm_mesh *mesh, const double *state);
-/* The largest |ell - ell of the neighbour| over the largest ell. */
-double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state);
-/* The least difference of the slopes on both sides of a node. */
-double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state);
+enum gm_mesh_measure {
+    GM_MEASURE_ENERGY,      /* the discrete energy E_N (their eq. 169) */
+    GM_MEASURE_MOMENTUM,    /* the sum of dL/d(dX/dt) over the nodes */
+    GM_MEASURE_DEFECT,      /* the largest |ell - ell of the neighbour| over the largest ell */
+    GM_MEASURE_STRAIGHTEST, /* the least difference of the slopes on both sides of a node */
+};
+/* Measures a state; NaN where its cells are tangled, or when out of memory. */
+double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_mesh_measure measure);
+static inline double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
+{
+    return gm_mesh_measure(mesh, state, GM_MEASURE_ENERGY);
+}
 /* The rank of the mass matrix of field and nodes, from eigenvalues above 1e-12 of the largest, and its condition.
    Returns false above GM_DENSE_POINTS nodes, or when out of memory. det M is a product of squared differences of
    slopes: every straight node takes 1 off the rank (Tyranowski & Desbrun 2019, proposition 7). */
@@ -150,8 +155,6 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
 /* Writes the blocks of the mass matrix of every node alone (their eq. 48): by y and y, by y and X, by X and X. False
    when out of memory. */
 bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3]);
-/* The sum of dL/d(dX/dt) over the nodes. */
-double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state);
 double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state);
 
 /* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Potentials W and their exact means over linear elements, m the mean and r the difference of the ends:
-       sine-Gordon   w = 1 - cos(m) S(r/2),   S(h) = sin(h)/h           (Tyranowski & Desbrun 2019, eq. 170)
-       phi^4         the mean of (phi^2 - 1)^2 / 4, a polynomial in m and r */
+/* The potential of the sine-Gordon equation and its exact mean over linear elements, m the mean and r the difference of the ends:
+       sine-Gordon   w = 1 - cos(m) S(r/2),   S(h) = sin(h)/h           (Tyranowski & Desbrun 2019, eq. 170) */
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -119,34 +119,4 @@ const struct gm_potential gm_potential_sine_gordon = {
     .name = "sine-gordon",
     .first = sine_gordon_first,
     .second = sine_gordon_second,
-};
-
-/* phi^4: over an element phi^2 has the mean m^2 + r^2 / 12, phi^4 the mean m^4 + m^2 r^2 / 2 + r^4 / 80. */
-
-static void phi4_first(const struct gm_potential *potential, const double *restrict middle,
-                       const double *restrict rise, size_t n, double *restrict w, double *restrict w_m,
-                       double *restrict w_r)
-{
-    (void)potential;
-    for (size_t e = 0; e < n; e++) {
-        const double m = middle[e], r = rise[e], mm = m * m, rr = r * r;
-        w[e] = ((mm - 1) * (mm - 1) + mm * rr / 2 + rr * rr / 80 - rr / 6) / 4;
-        w_m[e] = m * (mm - 1) + m * rr / 4;
-        w_r[e] = r * (mm + rr / 20 - 1. / 3) / 4;
-    }
-}
-
-static void phi4_second(const struct gm_potential *potential, double middle, double rise, double *w_mm,
-                        double *w_mr, double *w_rr)
-{
-    (void)potential;
-    *w_mm = 3 * middle * middle - 1 + rise * rise / 4;
-    *w_mr = middle * rise / 2;
-    *w_rr = (middle * middle + 3 * rise * rise / 20 - 1. / 3) / 4;
-}
-
-const struct gm_potential gm_potential_phi4 = {
-    .name = "phi4",
-    .first = phi4_first,
-    .second = phi4_second,
 };

@@ -383,7 +383,7 @@ static enum gm_status finish(struct gm_mesh_solver *solver, double *state, doubl
 static void scale(struct gm_mesh_solver *solver, double h)
 {
     const struct gm_mesh_layout *of = &solver->of;
-    /* a single velocity to so many digits more that 200 steps are undone to 1e-11, and the local law is seen to 1e-11 */
+    /* a single velocity is found more sharply: it takes that to undo 200 steps, and to see the local law, to 1e-11 */
     const double sharp = of->stride == 0 ? 30 : 1;
     solver->noise = DBL_EPSILON * solver->mesh.length / fabs(h);
     for (size_t i = 0; i < of->per_node; i++) {

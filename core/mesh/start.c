@@ -180,7 +180,7 @@ static bool is_of(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const doub
 {
     const size_t points = mesh->points;
     if (kind == GM_MESH_FREE || kind == GM_MESH_MOVING) {
-        return kind == GM_MESH_FREE || gm_mesh_constraint_defect(mesh, state) < 1e-7;
+        return kind == GM_MESH_FREE || gm_mesh_measure(mesh, state, GM_MEASURE_DEFECT) < 1e-7;
     }
     gm_mesh_known(mesh, kind, mesh->t, stage);
     for (size_t k = 0; k < points; k++) {
@@ -224,60 +224,40 @@ bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const dou
     return good;
 }
 
-double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
+/* The energy of an element. */
+static double energy(const struct gm_mesh *mesh, const struct gm_elements *stage, size_t e)
 {
-    struct gm_elements stage;
-    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
-    for (size_t e = 0; !isnan(sum) && e < stage.count; e++) {
-        const double g = stage.slope[e];
-        const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
-                                (stage.u[e + 1] - g * stage.v[e + 1]) * stage.momentum_u1[e]) /
-                               2;
-        if (mesh->cell) { /* d_t LC_dt + m_t LC_m - LC */
-            const double *at = stage.cells + e, *of = at + GM_CELL_INPUTS * stage.count;
-            sum += at[stage.count] * of[2 * stage.count] + at[2 * stage.count] * of[3 * stage.count] - of[0];
-        }
-        sum += kinetic + stage.rise[e] * g / 2 + stage.width[e] * stage.w[e];
+    const double g = stage->slope[e];
+    const double kinetic = ((stage->u[e] - g * stage->v[e]) * stage->momentum_u0[e] +
+                            (stage->u[e + 1] - g * stage->v[e + 1]) * stage->momentum_u1[e]) /
+                           2;
+    double of_cell = 0;
+    if (mesh->cell) { /* d_t LC_dt + m_t LC_m - LC */
+        const double *at = stage->cells + e, *of = at + GM_CELL_INPUTS * stage->count;
+        of_cell =
+            at[stage->count] * of[2 * stage->count] + at[2 * stage->count] * of[3 * stage->count] - of[0];
     }
-    gm_elements_close(&stage);
-    return sum;
+    return of_cell + (kinetic + stage->rise[e] * g / 2 + stage->width[e] * stage->w[e]);
 }
 
-double gm_mesh_momentum(const struct gm_mesh *mesh, const double *state)
+double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_mesh_measure measure)
 {
     struct gm_elements stage;
-    double sum = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN;
-    for (size_t k = 1; !isnan(sum) && k <= mesh->points; k++) {
-        sum += gm_momentum_v(&stage, k);
-    }
-    gm_elements_close(&stage);
-    return sum;
-}
-
-double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state)
-{
-    struct gm_elements stage;
-    double jump = gm_elements_open_at(&stage, mesh, state) ? 0 : NAN, size = 0;
-    if (!isnan(jump)) {
+    const bool good = gm_elements_open_at(&stage, mesh, state);
+    double sum = good ? energy(mesh, &stage, 0) : NAN, momentum = 0, jump = 0, size = 0, least = INFINITY;
+    if (good && measure == GM_MEASURE_DEFECT) {
         gm_elements_constrain(&stage, mesh);
     }
-    for (size_t k = 1; !isnan(jump) && k <= mesh->points; k++) {
+    for (size_t k = 1; good && k <= mesh->points; k++) {
+        sum += energy(mesh, &stage, k);
+        momentum += gm_momentum_v(&stage, k);
+        least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
         jump = fmax(jump, fabs(gm_jump(stage.ell, k)));
         size = fmax(size, fmax(stage.ell[k], stage.ell[k - 1]));
     }
     gm_elements_close(&stage);
-    return jump / size;
-}
-
-double gm_mesh_straightest(const struct gm_mesh *mesh, const double *state)
-{
-    struct gm_elements stage;
-    double least = gm_elements_open_at(&stage, mesh, state) ? INFINITY : NAN;
-    for (size_t k = 1; !isnan(least) && k <= mesh->points; k++) {
-        least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
-    }
-    gm_elements_close(&stage);
-    return least;
+    const double values[] = {sum, momentum, jump / size, least};
+    return good ? values[measure] : NAN;
 }
 
 bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3])

@@ -3,7 +3,7 @@
        abar_ij = b_j (1 - a_ji / b_i);
    Gauss' is a itself; Radau's is taken as a, and is not symplectic. Hairer, Lubich & Wanner (2006), chapters
    II and IV. */
-#include "core/mesh/solver.h"
+#include "core/mesh/equations.h"
 
 #define ROOT_3 1.7320508075688772
 #define ROOT_6 2.449489742783178

@@ -156,24 +156,16 @@ static double degree_of(const struct gm_user_system *system, gm_node_id formula)
     return degrees[formula];
 }
 
-/* Recognises a potential in u alone: another value of a parameter would make another one. */
-static enum gm_known_potential recognise(struct gm_user_system *system)
+/* Recognises 1 - cos u, however it is written. */
+static bool is_sine_gordon(struct gm_user_system *system)
 {
     struct gm_formula *graph = &system->graph;
-    const gm_node_id u = gm_formula_variable(graph, 0), one = gm_formula_constant(graph, 1),
-                     well = gm_difference(graph, gm_product(graph, u, u), one);
-    const gm_node_id known[] = {
-        [GM_POTENTIAL_SINE_GORDON] = gm_difference(graph, one, gm_simplified(graph, GM_OPERATION_COS, u, u)),
-        [GM_POTENTIAL_PHI4] =
-            gm_product(graph, gm_formula_constant(graph, 0.25), gm_product(graph, well, well))};
-    for (size_t i = GM_POTENTIAL_OWN + 1; i < GM_COUNT(known); i++) {
-        const enum gm_identity identity =
-            gm_equations_vanishes(system, gm_difference(graph, system->energy, known[i]));
-        if (identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED) {
-            return (enum gm_known_potential)i;
-        }
-    }
-    return GM_POTENTIAL_OWN;
+    const gm_node_id u = gm_formula_variable(graph, 0),
+                     known = gm_difference(graph, gm_formula_constant(graph, 1),
+                                           gm_simplified(graph, GM_OPERATION_COS, u, u));
+    const enum gm_identity identity =
+        gm_equations_vanishes(system, gm_difference(graph, system->energy, known));
+    return identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED;
 }
 
 /* With u at the start, f = V'(u), f' = V'', f'' = V''':
@@ -223,7 +215,7 @@ static void derive_wave(struct gm_arena *arena, void *data)
     bool *others = gm_arena_take(arena, system->variable_count, sizeof *others);
     memset(others + 1, true, system->variable_count - 1);
     if (!gm_formula_holds(&system->graph, system->energy, others, system->variable_count)) {
-        wave->known = recognise(system);
+        wave->sine_gordon = is_sine_gordon(system);
     }
     wave->start_slope = gm_system_derivative(system, system->variables[0].start, system->velocities);
     derive_start(wave, system);

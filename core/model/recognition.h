@@ -19,15 +19,12 @@ bool gm_equation_recognise(struct gm_user_system *system, struct gm_recognised *
 /* u and its time derivatives at the start, as levels need them; derivatives of V */
 enum { GM_TYPED_START = 5, GM_TYPED_DERIVATIVES = 3 };
 
-/* Potentials whose means over an element are known in closed form: 1 - cos u, (u^2 - 1)^2/4. */
-enum gm_known_potential { GM_POTENTIAL_OWN, GM_POTENTIAL_SINE_GORDON, GM_POTENTIAL_PHI4 };
-
 /* The formulas of a field, in its system's graph. */
 struct gm_user_wave {
     const struct gm_user_system *system;
     gm_node_id by_u[GM_TYPED_DERIVATIVES]; /* V', V'', V''' */
-    enum gm_known_potential known;
-    double degree; /* degree of V' in u; INFINITY: not written as a polynomial */
+    bool sine_gordon; /* V = 1 - cos u, whose means over an element are known in closed form */
+    double degree;    /* degree of V' in u; INFINITY: not written as a polynomial */
     /* formulas in x as variable 0; the exact solution has t as variable 1; GM_NO_NODE: not given */
     gm_node_id start[GM_TYPED_START], start_slope /* u_x */, exact, drift /* X_t */;
     gm_node_id exact_while; /* of x and t: above 0 while the exact solution holds */

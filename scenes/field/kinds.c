@@ -240,7 +240,7 @@ const struct gm_field_kind gm_field_moving_waves = {
 static double node_momentum(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_momentum(&mesh, view->state);
+    return gm_mesh_measure(&mesh, view->state, GM_MEASURE_MOMENTUM);
 }
 
 /* The number of the fastest node. */

@@ -392,16 +392,17 @@ void gm_field_draw_mesh(const struct gm_lane *const *lanes, size_t count, struct
     const bool alone = field->of_file.system.alone;
     const struct gm_view first = gm_lane_view(lanes[0]);
     const char *subtitle = gm_system_shown_text(picture, lanes, count, GM_WORD_SUBTITLE, ""),
-               *means = field->wave.known ? "exact means of V"
-                                          : gm_picture_text(picture, "means of V by %zu of Gauss’s points",
-                                                            gm_user_mesh_order(&field->wave));
+               *means = field->wave.sine_gordon
+                            ? "exact means of V"
+                            : gm_picture_text(picture, "means of V by %zu of Gauss’s points",
+                                              gm_user_mesh_order(&field->wave));
     double ends[2] = {field->low, field->high};
     const bool given = colours_of(field, &first, ends);
     struct gm_mesh_look look = {
         .show = show,
         .front = subtitle[0] || alone ? subtitle : means,
         .name = alone ? "v" : field->of_file.system.variables[0].name,
-        .scale = field->wave.known == GM_POTENTIAL_SINE_GORDON ? GM_PI : GM_LINEAR,
+        .scale = field->wave.sine_gordon ? GM_PI : GM_LINEAR,
         .low = alone && !given ? 0 : ends[0],
         .high = alone && !given ? 0 : ends[1],
     };

@@ -114,7 +114,7 @@ double gm_view_field_energy(const struct gm_view *view)
 static double straightest(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_straightest(&mesh, view->state);
+    return gm_mesh_measure(&mesh, view->state, GM_MEASURE_STRAIGHTEST);
 }
 
 /* The rank of the mass matrix, or its condition, by the observable's key. */
@@ -138,7 +138,7 @@ const struct gm_observable gm_mesh_asked[3] = {
 double gm_view_constraint_defect(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_of(view);
-    return moves(view) ? gm_mesh_constraint_defect(&mesh, view->state) : NAN;
+    return moves(view) ? gm_mesh_measure(&mesh, view->state, GM_MEASURE_DEFECT) : NAN;
 }
 
 double gm_view_multiplier_norm(const struct gm_view *view)

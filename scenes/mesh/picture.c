@@ -256,6 +256,18 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
+/* Returns the largest distance of a lane's series from a value. */
+static double farthest(const struct gm_lane *lane, size_t series, double from)
+{
+    const struct gm_history *history = &lane->history;
+    double largest = 0;
+    for (size_t b = 0; b < history->count; b++) {
+        const struct gm_bin *bin = &history->bins[b * history->series + series];
+        largest = fmax(largest, fmax(bin->high - from, from - bin->low));
+    }
+    return largest;
+}
+
 /* The largest error so far against the number of elements, or that of the energy against the step, a line for each
    scheme. */
 static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
@@ -275,12 +287,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     }
     for (size_t i = 0; i < count; i++) {
         over[i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
-        const struct gm_history *history = &lanes[i]->history;
-        largest[i] = 0;
-        for (size_t b = 0; b < history->count; b++) {
-            largest[i] = fmax(history->bins[b * history->series + (size_t)error].high, largest[i]);
-        }
-        largest[i] = lanes[i]->run->status == GM_OK ? largest[i] : NAN;
+        largest[i] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
         gm_range_add(&low_x, &high_x, over[i]);
         gm_range_add(&low_y, &high_y, largest[i]);
     }
@@ -293,37 +300,28 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
     size_t series = 0;
     for (size_t i = 0; i < count; i++) {
-        bool first = true;
-        for (size_t k = 0; k < i; k++) {
-            first &= lanes[k]->scheme != lanes[i]->scheme;
+        size_t made = 0, k = 0;
+        while (lanes[k]->scheme != lanes[i]->scheme) {
+            k++;
         }
-        if (!first) {
-            continue;
-        }
-        size_t made = 0;
-        for (size_t k = i; k < count; k++) {
+        for (; k >= i && k < count; k++) { /* from the scheme's first lane on */
             if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
                 points[2 * made] = over[k];
-                points[2 * made + 1] = largest[k];
-                made++;
+                points[2 * made++ + 1] = largest[k];
             }
         }
+        if (made == 0) {
+            continue;
+        }
         const enum gm_role role = gm_lane_role(series);
+        const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
         gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made,
                      false);
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
-        if (made > 0) {
-            const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
-            gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
-                         at[1] * gm_pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
-        }
+        gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
+                     at[1] * gm_pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
         series++;
     }
-}
-
-static const char *step_text(struct gm_picture *picture, double dt)
-{
-    return fabs(dt) < 1e-4 ? gm_power_text(picture, dt) : gm_picture_text(picture, "%.6g", dt);
 }
 
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
@@ -333,7 +331,6 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
     const struct gm_mesh mesh = gm_mesh_of(&view);
     const size_t points = mesh.points;
     const bool named = look->show != GM_MESH_CONVERGENCE;
-    const bool one_step = gm_one_step(lanes, count);
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
         one_size &= lanes[i]->problem.n == lanes[0]->problem.n;
@@ -343,29 +340,14 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD || look->show == GM_MESH_INERTIA;
     const bool exact = isfinite(gm_mesh_exact(&view, mesh.first, view.t0)),
                later = lanes[0]->run->t != lanes[0]->t0;
-    return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
+    return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s", look->front,
                            one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "",
                                                       points, gm_plural((double)points))
                                     : "",
-                           one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
-                           one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
-                           fields && (exact || later) ? ";" : "", fields && exact ? "  grey: exact" : "",
-                           fields && exact && later ? "," : "", fields && later ? "  red: at the start" : "");
-}
-
-/* Returns the largest change of a lane's energy since its start. */
-static double largest_change(const struct gm_lane *lane, size_t series)
-{
-    const struct gm_history *history = &lane->history;
-    struct gm_view view = gm_lane_view(lane);
-    view.state = view.start;
-    const double initial = gm_observe(&lane->scene->observables[series], &view);
-    double largest = 0;
-    for (size_t b = 0; b < history->count; b++) {
-        const struct gm_bin *bin = &history->bins[b * history->series + series];
-        largest = fmax(largest, fmax(bin->high - initial, initial - bin->low));
-    }
-    return largest;
+                           gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "",
+                           one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",
+                           fields && exact ? "  grey: exact" : "", fields && exact && later ? "," : "",
+                           fields && later ? "  red: at the start" : "");
 }
 
 /* Draws each panel's lanes in graphs of their own, one above another, all on one scale. */
@@ -385,10 +367,12 @@ static void draw_energies(struct gm_picture *picture, const struct gm_lane *cons
         struct gm_panel *panel = picture->last;
         panel->place = GM_PLACE_STATE;
         panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-        panel->note = lanes[i]->run->status == GM_OK
-                          ? gm_picture_text(picture, "changes by at most %s",
-                                            gm_power_text(picture, largest_change(lanes[i], (size_t)energy)))
-                          : gm_lane_failure(picture, lanes[i]);
+        panel->note =
+            lanes[i]->run->status == GM_OK
+                ? gm_picture_text(picture, "changes by at most %s",
+                                  gm_power_text(picture, farthest(lanes[i], (size_t)energy,
+                                                                  gm_start_of(lanes[i], (size_t)energy))))
+                : gm_lane_failure(picture, lanes[i]);
     }
     picture->state_columns = gm_panel_count(lanes, count) > 3 ? 2 : 1;
 }

@@ -267,3 +267,33 @@ double gm_soliton_energy(const struct gm_soliton *soliton)
     const double rest = soliton->field == GM_PHI4 ? 2 * M_SQRT2 / 3 : 8;
     return rest * (double)soliton->solitons * lorentz(soliton);
 }
+
+/* phi^4: over an element phi^2 has the mean m^2 + r^2 / 12, phi^4 the mean m^4 + m^2 r^2 / 2 + r^4 / 80. */
+
+static void phi4_first(const struct gm_potential *potential, const double *restrict middle,
+                       const double *restrict rise, size_t n, double *restrict w, double *restrict w_m,
+                       double *restrict w_r)
+{
+    (void)potential;
+    for (size_t e = 0; e < n; e++) {
+        const double m = middle[e], r = rise[e], mm = m * m, rr = r * r;
+        w[e] = ((mm - 1) * (mm - 1) + mm * rr / 2 + rr * rr / 80 - rr / 6) / 4;
+        w_m[e] = m * (mm - 1) + m * rr / 4;
+        w_r[e] = r * (mm + rr / 20 - 1. / 3) / 4;
+    }
+}
+
+static void phi4_second(const struct gm_potential *potential, double middle, double rise, double *w_mm,
+                        double *w_mr, double *w_rr)
+{
+    (void)potential;
+    *w_mm = 3 * middle * middle - 1 + rise * rise / 4;
+    *w_mr = middle * rise / 2;
+    *w_rr = (middle * middle + 3 * rise * rise / 20 - 1. / 3) / 4;
+}
+
+const struct gm_potential gm_potential_phi4 = {
+    .name = "phi4",
+    .first = phi4_first,
+    .second = phi4_second,
+};

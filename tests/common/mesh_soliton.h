@@ -7,6 +7,9 @@
 /* One or two solitons of the sine-Gordon equation, or kinks of phi^4, between the walls of a box, on a moving
    mesh. Tyranowski & Desbrun (2019), section 5. */
 
+/* W = (phi^2 - 1)^2 / 4 with its means in closed form */
+extern const struct gm_potential gm_potential_phi4;
+
 enum gm_soliton_field { GM_SINE_GORDON, GM_PHI4 };
 
 /* Densities in closed form, in the order of gm_user_densities; the last depends on slope, field and place. */

@@ -322,6 +322,7 @@ refused 1 'wrong.system:1:1: a system has no line "hamiltonian"' run ./wrong.sys
 
 printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.system
 "$geomint" list bbm --latex | grep -qF '\partial_t\left(u - u_{xx}\right) &= -u_{x} - u\,u_{x}' || fail "list bbm --latex: no mass"
+"$geomint" list peakons --latex | grep -qF 'L_{\mathrm{cell}} &= m_{t}^{2}\,\tanh\left(\frac{d}{2}\right) + ' || fail "list peakons --latex: no cell"
 "$geomint" list kink.system --latex | grep -qF -- '-\operatorname{sign}\left(x\right)' || fail "the derivative of |x| in LaTeX"
 
 # a swing of the error counts, wherever the run ends: no verdict but that of steps that are too long

@@ -160,16 +160,19 @@ static void measure(struct gm_certificate *certificate, const struct gm_mesh_sub
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     const double dt = 0.2;
-    const struct gm_problem fine = gm_mesh_soliton(GM_MESH_SUBJECT_POINTS), few = gm_mesh_soliton(3);
+    struct gm_mesh_soliton fine, few;
     struct gm_mesh_subject subject;
-    if (gm_mesh_subject_open(&subject, scheme, &fine, dt)) {
+    const bool good = gm_mesh_soliton_open(&fine, GM_MESH_SUBJECT_POINTS);
+    if (good && gm_mesh_subject_open(&subject, scheme, &fine.problem, dt)) {
         certificate->order = measure_order(&subject, dt, &certificate->ladder);
     }
-    certificate->order_problem = fine.name;
+    certificate->order_problem = "soliton";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
-    if (gm_mesh_subject_open(&subject, scheme, &few, dt)) {
+    if (gm_mesh_soliton_open(&few, 3) && good && gm_mesh_subject_open(&subject, scheme, &few.problem, dt)) {
         measure(certificate, &subject, 1);
     }
+    gm_mesh_soliton_close(&fine);
+    gm_mesh_soliton_close(&few);
 }
 
 /* On the mesh of a given system, which has few nodes too. */

@@ -1,104 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The soliton that schemes on meshes are certified on. */
+/* The soliton that schemes on meshes are certified on, and steps from its start. */
 #include "core/mesh/certify/subject.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "core/functions/functions.h"
-#include "core/linear/differences.h"
+#include "core/files/files.h"
 #include "core/mesh/nodes.h"
-#include "core/theory/certify.h"
+#include "core/model/equations.h"
+#include "core/user/line.h"
 
 static const struct gm_settings settings = {0};
 
-/* One sine-Gordon soliton in the middle of a box, 4 arctan(exp(gamma (x - v t))). */
-static const double velocity = 0.5, length = 12;
-
-static double lorentz(void)
+bool gm_mesh_soliton_open(struct gm_mesh_soliton *soliton, size_t points)
 {
-    return 1 / sqrt((1 - velocity) * (1 + velocity));
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SUBJECT, "soliton");
+    struct gm_user_system *system = &soliton->system;
+    struct gm_fault fault;
+    *soliton = (struct gm_mesh_soliton){.problem.n = 0};
+    double *values = gm_equations_open(system, file->text, file->length, NULL, 0, &fault)
+                         ? gm_equations_start(system, NULL)
+                         : NULL;
+    const struct gm_user_mesh chosen = {.length = 12,
+                                        .points = (long)points,
+                                        .alpha = NAN,
+                                        .density = system->texts[GM_WORD_DENSITY],
+                                        .map = system->texts[GM_WORD_MESH],
+                                        .cell = system->texts[GM_WORD_CELL]};
+    const bool good = values && gm_user_wave_derive(&soliton->wave, system) &&
+                      gm_user_mesh_open(&soliton->problem, &soliton->wave, values, &chosen);
+    free(values);
+    soliton->problem.name = "soliton";
+    return good;
 }
 
-static void profile(const void *unused, const double *x, size_t count, double *value, double *slope,
-                    double *rate)
+void gm_mesh_soliton_close(struct gm_mesh_soliton *soliton)
 {
-    const double gamma = lorentz();
-    (void)unused;
-    for (size_t i = 0; i < count; i++) {
-        const double from_middle = gamma * (x[i] - length / 2);
-        value[i] = 4 * gm_atan(gm_exp(from_middle));
-        slope[i] = 2 * gamma / gm_cosh(from_middle);
-        rate[i] = -velocity * slope[i];
-    }
-}
-
-/* generalised arclength with alpha = 1 */
-static void arclength(const struct gm_density *unused, const double *slope, double *values, size_t m)
-{
-    (void)unused;
-    for (size_t i = 0; i < m; i++) {
-        values[GM_P * m + i] = 1 + slope[i] * slope[i];
-        values[GM_P_S * m + i] = 2 * slope[i];
-        values[GM_P_SS * m + i] = 2;
-    }
-}
-
-/* A mesh that swings. */
-static void places(const struct gm_mesh_map *unused, const double *label, size_t count, double t, double *x,
-                   double *rate)
-{
-    const double amplitude = 0.8, frequency = 1.1, phase = frequency * t + 0.3;
-    (void)unused;
-    for (size_t i = 0; i < count; i++) {
-        const double shape = amplitude * gm_sin(M_PI * label[i] / length);
-        x[i] = label[i] + shape * gm_sin(phase);
-        rate[i] = frequency * shape * gm_cos(phase);
-    }
-}
-
-/* Inertia between nodes, (d_t/d)^2/20, with which free nodes have a regular mass matrix. */
-static void inertia(const struct gm_mesh_cell *unused, const double *at, double *values, size_t m)
-{
-    (void)unused;
-    for (size_t e = 0; e < m; e++) {
-        const double d = at[e], rate = at[m + e] / d;
-        values[e] = rate * rate / 20;
-        values[m + e] = -rate * rate / (10 * d);
-        values[2 * m + e] = rate / (10 * d);
-        values[3 * m + e] = values[4 * m + e] = 0;
-    }
-}
-
-static void bent_inertia(const struct gm_mesh_cell *unused, const double *at, double values[4][4])
-{
-    const double d = at[0], rate = at[1] / d;
-    (void)unused;
-    memset(values, 0, 16 * sizeof(double));
-    values[0][0] = 3 * rate * rate / (10 * d * d);
-    values[0][1] = values[1][0] = -rate / (5 * d * d);
-    values[1][1] = 1 / (10 * d * d);
-}
-
-static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
-{
-    static const struct gm_density density = {.values = arclength};
-    static const struct gm_mesh_map map = {places};
-    static const struct gm_mesh_cell cell = {inertia, bent_inertia};
-    *mesh = (struct gm_mesh){.points = problem->n / 4,
-                             .length = length,
-                             .right = 2 * M_PI,
-                             .density = &density,
-                             .map = &map,
-                             .cell = &cell,
-                             .potential = &gm_potential_sine_gordon};
-}
-
-struct gm_problem gm_mesh_soliton(size_t points)
-{
-    static const struct gm_moving_mesh soliton = {.describe = describe, .start = profile};
-    return (struct gm_problem){
-        .name = "soliton", .n = 4 * points, .m = 1, .kind = &gm_kind_mesh, .facets = &soliton};
+    gm_user_line_close(&soliton->problem);
+    gm_system_close(&soliton->system);
 }
 
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,

@@ -3,7 +3,7 @@
 #define GM_CORE_MESH_CERTIFY_SUBJECT_H
 
 #include "core/linear/differences.h"
-#include "core/mesh/moving_mesh.h"
+#include "core/mesh/user/potential.h"
 #include "core/theory/certify.h"
 
 /* Test problems of schemes on meshes: a field on a few nodes, usually one soliton, and derivatives along
@@ -21,8 +21,14 @@ struct gm_mesh_subject {
     double start[GM_MESH_SUBJECT_STATE];
 };
 
-/* A soliton on a mesh of `points` nodes. */
-struct gm_problem gm_mesh_soliton(size_t points);
+/* The file of share/subjects. Opens it with `points` nodes; false when out of memory. The caller closes it in both cases. */
+struct gm_mesh_soliton {
+    struct gm_user_system system;
+    struct gm_user_wave wave;
+    struct gm_problem problem;
+};
+bool gm_mesh_soliton_open(struct gm_mesh_soliton *soliton, size_t points);
+void gm_mesh_soliton_close(struct gm_mesh_soliton *soliton);
 
 /* Opens a subject on a problem of at most GM_MESH_SUBJECT_POINTS nodes, with the problem's start for the scheme. False
    if it has no start, or when out of memory. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What holds the mesh, and the coefficients of the stages: the equations of all rows are those of core/mesh/equations.c. */
+/* The schemes on meshes: what moves the nodes, and coefficients. core/mesh/equations.c has the equations of all. */
 #include "core/mesh/families/families.h"
 #include "core/mesh_scheme_texts.h"
 

@@ -213,8 +213,6 @@ struct opening {
 
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    static const struct gm_potential *const known[] = {
-        [GM_POTENTIAL_SINE_GORDON] = &gm_potential_sine_gordon, [GM_POTENTIAL_PHI4] = &gm_potential_phi4};
     const struct opening *opening = data;
     const struct gm_user_wave *wave = opening->wave;
     const struct gm_user_mesh *chosen = opening->chosen;
@@ -227,10 +225,11 @@ static void open_problem(struct gm_arena *arena, void *data)
    begin[OF_START] = {
        [U] = wave->start[0], [RATE] = wave->start[1], [SLOPE] = wave->start_slope, [DRIFT] = wave->drift};
     self->functions = (struct gm_potential){.name = "own", .first = first, .second = second};
-    self->mesh = (struct gm_mesh){.points = (size_t)chosen->points,
-                                  .first = chosen->first,
-                                  .length = chosen->length,
-                                  .potential = wave->known ? known[wave->known] : &self->functions};
+    self->mesh =
+        (struct gm_mesh){.points = (size_t)chosen->points,
+                         .first = chosen->first,
+                         .length = chosen->length,
+                         .potential = wave->sine_gordon ? &gm_potential_sine_gordon : &self->functions};
     self->nodes = gm_user_mesh_order(wave);
     gm_arena_need(arena, gm_memory_guard_gsl(set_rule, self));
     gm_user_line_tape(line, &self->means, means, GM_COUNT(means), 1, values);
