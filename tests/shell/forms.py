@@ -377,7 +377,7 @@ REFUSED += [
     (HARMONIC, "annulus 1 2 24 3", "annulus 1 2 24 3", "4:11: equation: the equations do not determine f: 1 number is free"),
     (HARMONIC, "annulus 1 2 24 3", "torus 2 0.8 20", "4:11: equation: the equations do not determine f: 2 numbers are free"),
     (HARMONIC, "-laplace(f) = form(x, y)", "star(laplace(f)) = star(form(x, y))", "f: 1 number is free"),
-    (HARMONIC, "unknown: f", "let: edges = star(1)\nunknown: f", "3:6: a form cannot be called edges"),
+    (HARMONIC, "unknown: f", "let: edges = star(1)\nunknown: f", "3:14: a form cannot be called edges"),
     (STEADY, "unknown: u = 0-form\nequation: u; -laplace(u) = x*y", FREE, "4:11: equation: the equations do not determine u"),
     (STEADY, "= x*y", "= x*y + t*u", "4:34: the factor of an unknown does not change in time"),
     (WAVE, "sphere 1 2", "flat-torus 1 1 8 10 0.6", "2:7: mesh: flat-torus: vertices are moved by 0.6 of an edge"),

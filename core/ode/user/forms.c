@@ -1084,7 +1084,7 @@ static void make(struct gm_arena *arena, void *data)
     }
     gm_arena_keep(arena, own, close_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
-    own->facets.quantities = gm_form_quantities;
+    own->facets.forms = true;
     own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
