@@ -7,6 +7,7 @@
 #include "core/form/complex.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -486,6 +487,7 @@ static bool star_is_positive(const struct gm_complex *complex, const struct gm_t
                 worst = angle;
                 name_triangle(complex, (size_t)t, from, fault);
                 fault->value = angle;
+                snprintf(fault->text, sizeof fault->text, "%.2g", complex->star_least);
                 fault->kind = GM_TRIANGULATION_NOT_DELAUNAY;
             }
         }

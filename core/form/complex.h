@@ -28,7 +28,8 @@ enum gm_triangulation_fault_kind {
     GM_TRIANGULATION_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
     GM_TRIANGULATION_PIECES,        /* triangle, nodes: not of the first one's piece */
     GM_TRIANGULATION_ONE_SIDED,     /* nodes: an edge along which orientations of the surface disagree */
-    /* triangle, nodes, value: its largest angle, opposite to a dual edge that is not positive */
+    /* triangle, nodes, value: its largest angle, opposite to a dual edge that is not positive; text: the least entry
+       of the circumcentric star1 */
     GM_TRIANGULATION_NOT_DELAUNAY,
     GM_TRIANGULATION_DUAL_CELL, /* nodes[0]: a dual cell whose area is not positive */
 };

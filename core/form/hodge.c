@@ -75,7 +75,7 @@ static void make_saddle(struct gm_hodge *hodge, struct gm_arena *arena)
     gm_matrix_put_block(&all, &back, 0, edges, 1);
     hodge->saddle = gm_matrix_of(&all, edges + triangles, edges + triangles);
     hodge->lu =
-        gm_lu_open(hodge->saddle.rows, hodge->saddle.start, hodge->saddle.column, hodge->saddle.value);
+        gm_lu_open(hodge->saddle.rows, hodge->saddle.start, hodge->saddle.column, hodge->saddle.value, NULL);
     gm_arena_need(arena, hodge->lu);
     gm_arena_keep(arena, hodge->lu, gm_lu_close);
 }

@@ -164,8 +164,8 @@ struct gm_cholesky {
 
 /* clang-format off */
 #define FUNCTIONS(F) \
-    F(cholmod_analyze) F(cholmod_factorize) F(cholmod_finish) F(cholmod_free_factor) F(cholmod_start) \
-    F(umfpack_di_defaults) F(umfpack_di_free_numeric) F(umfpack_di_free_symbolic) F(umfpack_di_numeric) \
+    F(cholmod_analyze) F(cholmod_factorize) F(cholmod_finish) F(cholmod_free_factor) F(cholmod_rcond) F(cholmod_start) \
+    F(umfpack_di_defaults) F(umfpack_di_free_numeric) F(umfpack_di_free_symbolic) F(umfpack_di_get_numeric) F(umfpack_di_numeric) \
     F(umfpack_di_solve) F(umfpack_di_symbolic)
 
 static struct {
@@ -282,6 +282,11 @@ static bool narrow(struct gm_cholesky *cholesky)
     return error <= good_enough * good_enough * size;
 }
 
+double gm_cholesky_condition(struct gm_cholesky *cholesky)
+{
+    return suite.cholmod_rcond(cholesky->factor, &cholesky->common);
+}
+
 size_t gm_cholesky_entries(const struct gm_cholesky *cholesky)
 {
     return cholesky->factor->xsize;
@@ -376,7 +381,29 @@ struct gm_lu {
     double entries;
 };
 
-struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value)
+/* The number of pivots that are round-off beside the largest; n when out of memory. */
+static size_t vanishing_pivots(const struct gm_lu *lu, size_t n)
+{
+    double *pivots = malloc((n + 1) * sizeof *pivots), largest = 0;
+    int scaled_by_division;
+    size_t count = 0;
+    if (!pivots || suite.umfpack_di_get_numeric(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, pivots,
+                                                &scaled_by_division, NULL, lu->numeric) != UMFPACK_OK) {
+        free(pivots);
+        return n;
+    }
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(pivots[i]));
+    }
+    for (size_t i = 0; i < n; i++) {
+        count += !(fabs(pivots[i]) > 1e-13 * largest);
+    }
+    free(pivots);
+    return count;
+}
+
+struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value,
+                         size_t *vanishing)
 {
     struct gm_lu *lu = gm_cholesky_missing() ? NULL : calloc(1, sizeof *lu);
     void *symbolic = NULL;
@@ -390,14 +417,18 @@ struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const do
        size on */
     lu->control[UMFPACK_ORDERING] = n > 20000 ? UMFPACK_ORDERING_METIS : UMFPACK_ORDERING_AMD;
     /* the rows are the columns of the transpose */
-    const bool good = suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, lu->control,
-                                                NULL) == UMFPACK_OK &&
-                      suite.umfpack_di_numeric(start, column, value, symbolic, &lu->numeric, lu->control,
-                                               info) == UMFPACK_OK;
+    int status =
+        suite.umfpack_di_symbolic((int)n, (int)n, start, column, value, &symbolic, lu->control, NULL);
+    if (status == UMFPACK_OK) {
+        status = suite.umfpack_di_numeric(start, column, value, symbolic, &lu->numeric, lu->control, info);
+    }
     suite.umfpack_di_free_symbolic(&symbolic);
-    if (!good) {
+    if (status != UMFPACK_OK && !(vanishing && status == UMFPACK_WARNING_singular_matrix)) {
         gm_lu_close(lu);
         return NULL;
+    }
+    if (vanishing) {
+        *vanishing = vanishing_pivots(lu, n);
     }
     lu->entries = info[UMFPACK_LNZ] + info[UMFPACK_UNZ];
     return lu;
@@ -426,7 +457,7 @@ bool gm_lu_apply(const struct gm_lu *lu, const double *b, double *x)
 bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
                  double *x)
 {
-    struct gm_lu *lu = gm_lu_open(n, start, column, value);
+    struct gm_lu *lu = gm_lu_open(n, start, column, value, NULL);
     const bool solved = lu && gm_lu_apply(lu, b, x);
     gm_lu_close(lu);
     return solved;

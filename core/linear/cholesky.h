@@ -23,6 +23,8 @@ enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
 struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
                                      enum gm_cholesky_precision precision);
 void gm_cholesky_close(void *cholesky); /* for arenas too */
+/* About the inverse of the condition number: the least of the factor's diagonal over the largest, squared. */
+double gm_cholesky_condition(struct gm_cholesky *cholesky);
 /* The numbers that an exact factor holds. */
 size_t gm_cholesky_entries(const struct gm_cholesky *cholesky);
 /* b, x: n; may be the same */
@@ -32,8 +34,10 @@ void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
    gm_cholesky_open, with all columns. */
 struct gm_lu;
 
-/* The matrix outlives the factors. NULL when out of memory or if it is singular. */
-struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value);
+/* The matrix outlives the factors. NULL when out of memory or, if `vanishing` is NULL, if it is singular; else that is
+   the number of pivots that are round-off: the dimension of its kernel, if there is no smaller scale in the matrix. */
+struct gm_lu *gm_lu_open(size_t n, const int *start, const int *column, const double *value,
+                         size_t *vanishing);
 void gm_lu_close(void *lu);                   /* for arenas too */
 size_t gm_lu_entries(const struct gm_lu *lu); /* of both triangles */
 /* Solves A x = b; allocates. False when out of memory. */

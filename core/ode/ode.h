@@ -202,6 +202,7 @@ struct gm_ode {
     bool linear;    /* f is of degree 1, with coefficients that do not depend on the time */
     bool rough;     /* f is not smooth: no order can be measured */
     bool written;   /* the system is user-defined (core/ode/user/problem.h) */
+    bool forms;     /* the state is of discrete forms (core/ode/user/forms.h) */
     bool forced;    /* a force acts beside the energy's field */
     const struct gm_split *split; /* NULL: the problem has no such facet; so below */
     const struct gm_hamiltonian *hamiltonian;
@@ -217,8 +218,6 @@ struct gm_ode {
     const struct gm_degenerate *degenerate;
     const struct gm_semilinear *semilinear;
     const struct gm_parts *parts;
-    /* The arrays of files (gm_quantities), if they are not those of `components`. */
-    size_t (*quantities)(const struct gm_run *run, struct gm_quantity *quantities);
     /* Writes the quantity of that name, which the motion conserves, in a graph opened for it, of the components by
        number. Returns GM_NO_NODE with what the problem lacks, worded like a facet, "" when out of memory, in
        GM_FAULT_SENTENCE bytes. NULL: there are no names but H. */

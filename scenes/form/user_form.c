@@ -163,17 +163,12 @@ static void make_observables(struct gm_form_scene *scene)
 /* The words of show=. */
 static void make_shows(struct gm_form_scene *scene)
 {
-    static const char *const taken[] = {"numbers", "mesh", "points", "triangles", "edges", "dual_vertices"};
     const struct gm_form_model *model = &scene->model;
     struct gm_arena *arena = scene->of_file.arena;
     gm_arena_refuse_if(arena, model->named_count == 0, "the file has no form: a line field, unknown or let");
     scene->shows = gm_arena_take(arena, model->named_count + 3, sizeof *scene->shows);
     for (size_t i = 0; i < model->named_count; i++) {
-        const char *name = scene->shows[i] = model->named[i].name;
-        for (size_t k = 0; k < GM_COUNT(taken); k++) {
-            gm_arena_refuse_if(arena, strcmp(name, taken[k]) == 0,
-                               "a form cannot be called %s: pictures or files of forms have that word", name);
-        }
+        scene->shows[i] = model->named[i].name;
     }
     scene->shows[model->named_count] = "numbers";
     scene->shows[model->named_count + 1] = "mesh";

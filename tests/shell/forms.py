@@ -167,6 +167,11 @@ mesh: sphere 1 2
 unknown: u = 0-form
 equation: u; -laplace(u) = x*y
 """
+HARMONIC = """geomint: 1
+mesh: annulus 1 2 24 3
+unknown: f = 1-form
+equation: f; -laplace(f) = form(x, y)
+"""
 REFUSED = [
     (WAVE, "rate: u = v", "rate: u = v + d(u)", "4:11: v is a 0-form and d(u) a 1-form: they cannot be added"),
     (WAVE, "rate: u = v", "rate: u = d(u)*d(v)", "4:11: d(u) is a 1-form and d(v) a 1-form: they cannot be multiplied"),
@@ -192,7 +197,7 @@ REFUSED = [
     (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
     (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
     (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
-    (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "a dual edge that is not positive"),
+    (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "and its least star entry is -"),
     (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),
     (STEADY, "equation: u; -laplace(u) = x*y\n", "", "3:10: u has no equation"),
     (STEADY, "= x*y", "= x*y\nboundary: top u = 0", "5:11: boundary: top is not a part of the boundary; the parts of sphere are: none"),
@@ -369,6 +374,10 @@ REFUSED += [
     (STEADY, "= x*y", "= x*y\nobserve: a = at(u, 1)", "5:14: at takes a form and two or three coordinates"),
     (STEADY, "= x*y", "= x*y\nobserve: a = inner(exact(u), d(u))", "5:20: exact, coexact and harmonic are of a 1-form"),
     (STEADY, "-laplace(u) = x*y", "exact(d(u)) = d(x)", "4:14: an equation has no numbers that are made of its unknowns"),
+    (HARMONIC, "annulus 1 2 24 3", "annulus 1 2 24 3", "4:11: equation: the equations do not determine f: 1 number is free"),
+    (HARMONIC, "annulus 1 2 24 3", "torus 2 0.8 20", "4:11: equation: the equations do not determine f: 2 numbers are free"),
+    (HARMONIC, "-laplace(f) = form(x, y)", "star(laplace(f)) = star(form(x, y))", "f: 1 number is free"),
+    (HARMONIC, "unknown: f", "let: edges = star(1)\nunknown: f", "3:14: a form cannot be called edges"),
     (STEADY, "unknown: u = 0-form\nequation: u; -laplace(u) = x*y", FREE, "4:11: equation: the equations do not determine u"),
     (STEADY, "= x*y", "= x*y + t*u", "4:34: the factor of an unknown does not change in time"),
     (WAVE, "sphere 1 2", "flat-torus 1 1 8 10 0.6", "2:7: mesh: flat-torus: vertices are moved by 0.6 of an edge"),

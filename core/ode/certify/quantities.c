@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/ode/ode.h"
+#include "core/ode/user/forms.h"
 #include "core/quantity.h"
 #include "core/run.h"
 
@@ -48,8 +49,8 @@ size_t gm_ode_quantities(const struct gm_run *run, struct gm_quantity *quantitie
     const char *names = gm_ode_of(problem)->components;
     const size_t active = problem->n - 2 * problem->passive;
     size_t lists = 0, first = 0;
-    if (gm_ode_of(problem)->quantities) {
-        return gm_ode_of(problem)->quantities(run, quantities);
+    if (gm_ode_of(problem)->forms) {
+        return gm_form_quantities(run, quantities);
     }
     if (problem->line.points > 0) { /* fields on a line, which evolve by rates */
         quantities[0] = gm_quantity_grid(run);

@@ -267,6 +267,21 @@ static void find_split(struct gm_form_model *model)
     }
 }
 
+/* Adds a form that files and pictures have by its name. */
+static void name_form(const struct compiling *compiling, struct gm_form_named form, size_t place)
+{
+    static const char *const taken[] = {"numbers", "mesh", "points", "triangles", "edges", "dual_vertices"};
+    struct gm_form_model *model = compiling->model;
+    for (size_t k = 0; k < GM_COUNT(taken); k++) {
+        gm_arena_need(model->system->arena,
+                      strcmp(form.name, taken[k]) != 0 ||
+                          gm_fail(compiling->fault, place,
+                                  "a form cannot be called %s: pictures or files of forms have that word",
+                                  form.name));
+    }
+    model->named[model->named_count++] = form;
+}
+
 static void compile_all(struct gm_arena *arena, void *data)
 {
     const struct compiling *compiling = data;
@@ -290,14 +305,14 @@ static void compile_all(struct gm_arena *arena, void *data)
     compile(compiling, &model->observed, observed, model->observed_count, false);
     model->named = gm_arena_take(arena, system->n + model->observed_count + 1, sizeof *model->named);
     for (size_t i = 0; i < system->n; i++) {
-        model->named[model->named_count++] =
-            (struct gm_form_named){system->variables[i].name, type_of(system, i), true, i};
+        name_form(compiling, (struct gm_form_named){system->variables[i].name, type_of(system, i), true, i},
+                  system->forms[i].place);
     }
     for (size_t i = 0; i < model->observed_count; i++) {
         const struct gm_system_item *item = &system->items[model->observed_item[i]];
         const struct gm_form_type type = model->observed.steps[model->observed.roots[i]].type;
         if (item->word == GM_WORD_LET && type.degree >= 0) {
-            model->named[model->named_count++] = (struct gm_form_named){item->name, type, false, i};
+            name_form(compiling, (struct gm_form_named){item->name, type, false, i}, item->place);
         }
     }
 }
@@ -348,9 +363,9 @@ static bool open_mesh(struct opening *opening, enum gm_star star, struct gm_faul
     if (!opening->file.complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
         return gm_fail(
             fault, mesh->place,
-            "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees: take "
-            "star=auto or star=barycentric",
-            wrong.value);
+            "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees, and its least star "
+            "entry is %s: take star=auto or star=barycentric",
+            wrong.value, wrong.text);
     }
     return opening->file.complex != NULL;
 }
@@ -401,7 +416,8 @@ static void pin(struct own *own)
     }
 }
 
-/* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. */
+/* Factors the matrix: if it is symmetric and, but for its sign, definite, by Cholesky's method. Refuses equations that
+   do not determine their unknowns. */
 static void factor(struct own *own)
 {
     struct gm_matrix *a = &own->matrix;
@@ -424,13 +440,23 @@ static void factor(struct own *own)
     }
     gm_matrix_scale(a, signs);
     own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
-    own->lu = own->factor ? NULL : gm_lu_open(n, a->start, a->column, a->value);
-    if (own->lu) {
-        gm_arena_keep(own->arena, own->lu, gm_lu_close);
-    } else if (!own->factor) {
+    if (own->factor && gm_cholesky_condition(own->factor) > 1e-13) {
+        return;
+    }
+    size_t vanishing = 0;
+    own->factor = NULL;
+    own->lu = gm_lu_open(n, a->start, a->column, a->value, &vanishing);
+    gm_arena_need(own->arena, own->lu);
+    gm_arena_keep(own->arena, own->lu, gm_lu_close);
+    if (vanishing > 0) {
         const struct gm_form_model *model = own->model;
-        gm_arena_refuse(own->arena, "equation: the equations do not determine %s: their matrix is singular",
-                        model->system->variables[model->unknowns[0]].name);
+        const char *names = "";
+        for (size_t k = 0; k < model->unknown_count; k++) {
+            names = gm_arena_print(own->arena, "%s%s%s", names, k > 0 ? ", " : "",
+                                   model->system->variables[model->unknowns[k]].name);
+        }
+        gm_arena_refuse(own->arena, "equation: the equations do not determine %s: %zu number%s free", names,
+                        vanishing, vanishing == 1 ? " is" : "s are");
     }
 }
 
@@ -738,7 +764,8 @@ static void factor_stages(struct gm_arena *arena, void *data)
         }
     }
     factor->matrix = gm_matrix_of(&all, count * each, count * each);
-    factor->lu = gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value);
+    factor->lu =
+        gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value, NULL);
     gm_arena_need(arena, factor->lu);
     gm_arena_keep(arena, factor->lu, gm_lu_close);
 }
@@ -1057,7 +1084,7 @@ static void make(struct gm_arena *arena, void *data)
     }
     gm_arena_keep(arena, own, close_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
-    own->facets.quantities = gm_form_quantities;
+    own->facets.forms = true;
     own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
