@@ -95,7 +95,7 @@ bool gm_print_write(struct gm_print *print, const struct gm_printed *content, ch
     const char *writer = print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
     if ((!painted || rgb) && picture &&
         content->describe(&provenance, content->data, look, canvas ? gm_canvas_backend(canvas) : writer)) {
-        content->draw(content->data, picture);
+        gm_picture_draw(picture, content->draw, content->data);
         printed = write_file(print, picture, canvas, rgb, &provenance, message);
     }
     gm_provenance_close(&provenance);

@@ -80,7 +80,7 @@ static bool paint(struct show *show)
     if (!show->grid) {
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
     } else {
-        gm_grid_draw(show->grid, show->picture);
+        gm_picture_draw(show->picture, gm_grid_draw, show->grid);
     }
     show->picture->told = told;
     show->picture->told_count = tell(show, told);

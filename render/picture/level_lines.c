@@ -189,9 +189,6 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
 {
     /* Vertices are far apart in memory, so they are visited once, not for every level. */
     struct span *spans = gm_picture_memory(picture, triangle_count * sizeof *spans);
-    if (!spans) {
-        return;
-    }
     for (size_t t = 0; t < triangle_count; t++) {
         spans[t] = span_of(points, values, count, triangles + 3 * t);
     }
@@ -214,10 +211,6 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
     struct crossing *table = gm_picture_memory(picture, table_size * sizeof *table);
     struct segment *segments = gm_picture_memory(picture, most * sizeof *segments);
     double *line = gm_picture_memory(picture, (most + 1) * 2 * sizeof *line);
-    if (!table || !segments || !line) {
-        return;
-    }
-
     for (size_t l = 0; l < level_count; l++) {
         struct level level = {points, values, levels[l], table, table_size, segments, 0};
         for (size_t i = 0; i < table_size; i++) {

@@ -3,6 +3,7 @@
 #include "render/picture/picture.h"
 
 #include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -17,11 +18,10 @@ struct chunk {
 };
 
 struct gm_picture_store {
-    struct chunk *chunk; /* the newest chunk; the others are full */
-    size_t total;        /* bytes of all chunks */
-    /* the results when memory is short: callers may write to them, and they are never read */
-    struct gm_panel spare_panel;
-    struct gm_mark spare_mark;
+    struct chunk *chunk;       /* the newest chunk; the others are full */
+    size_t total;              /* bytes of all chunks */
+    jmp_buf *leave;            /* the end of the body that draws; NULL outside of one */
+    struct gm_mark spare_mark; /* the result if nothing is drawn; it is never read */
 };
 
 enum gm_role gm_lane_role(size_t lane)
@@ -105,11 +105,34 @@ void gm_picture_clear(struct gm_picture *picture)
     picture_reset(picture);
 }
 
+bool gm_picture_draw(struct gm_picture *picture, void (*draw)(const void *data, struct gm_picture *picture),
+                     const void *data)
+{
+    struct gm_picture_store *arena = picture->arena;
+    jmp_buf *const outer = arena->leave, leave;
+    const bool drawn = setjmp(leave) == 0;
+    if (drawn) {
+        arena->leave = &leave;
+        draw(data, picture);
+    }
+    arena->leave = outer;
+    return drawn;
+}
+
+/* Leaves the body that draws. */
+static void *short_of_memory(struct gm_picture_store *arena)
+{
+    if (arena->leave) {
+        longjmp(*arena->leave, 1);
+    }
+    return NULL;
+}
+
 void *gm_picture_memory(struct gm_picture *picture, size_t size)
 {
     struct gm_picture_store *arena = picture->arena;
     if (size > SIZE_MAX / 4) {
-        return NULL;
+        return short_of_memory(arena);
     }
     size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     struct chunk *chunk = arena->chunk;
@@ -117,7 +140,7 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size)
         size_t wanted = arena->total > FIRST_CHUNK ? arena->total : FIRST_CHUNK;
         chunk = chunk_open(wanted > size ? wanted : size, arena->chunk);
         if (!chunk) {
-            return NULL;
+            return short_of_memory(arena);
         }
         arena->chunk = chunk;
         arena->total += chunk->size;
@@ -129,41 +152,33 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size)
 
 static void *memory_of(struct gm_picture *picture, size_t count, size_t size)
 {
-    return count > SIZE_MAX / 4 / size ? NULL : gm_picture_memory(picture, count * size);
+    return gm_picture_memory(picture, count > SIZE_MAX / 4 / size ? SIZE_MAX : count * size);
 }
 
 const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
 {
-    va_list arguments, again;
+    va_list arguments;
     va_start(arguments, format);
-    va_copy(again, arguments);
     const int length = vsnprintf(NULL, 0, format, arguments);
-    char *text = length < 0 ? NULL : gm_picture_memory(picture, (size_t)length + 1);
-    if (text) {
-        vsnprintf(text, (size_t)length + 1, format, again);
-    }
-    va_end(again);
     va_end(arguments);
-    return text ? text : "";
+    char *text = length < 0 ? NULL : gm_picture_memory(picture, (size_t)length + 1);
+    if (!text) {
+        return "";
+    }
+    va_start(arguments, format);
+    vsnprintf(text, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    return text;
 }
 
 static const char *text_copy(struct gm_picture *picture, const char *text)
 {
-    if (!text) {
-        return "";
-    }
-    const size_t size = strlen(text) + 1;
-    char *copy = gm_picture_memory(picture, size);
-    return copy ? memcpy(copy, text, size) : "";
+    return text ? gm_picture_text(picture, "%s", text) : "";
 }
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title)
 {
     struct gm_panel *panel = gm_picture_memory(picture, sizeof *panel);
-    const bool short_of_memory = panel == NULL;
-    if (short_of_memory) {
-        panel = &picture->arena->spare_panel;
-    }
     *panel = (struct gm_panel){
         .place = place,
         .title = text_copy(picture, title),
@@ -174,9 +189,6 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
         .axes = place == GM_PLACE_GRAPH,
         .colour_bar_label = "",
     };
-    if (short_of_memory) {
-        return panel;
-    }
     if (picture->last) {
         picture->last->next = panel;
     } else {
@@ -196,9 +208,6 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
                                 struct gm_style style)
 {
     struct gm_mark *mark = gm_picture_memory(picture, sizeof *mark);
-    if (!mark) {
-        return spare(picture);
-    }
     *mark = (struct gm_mark){.kind = kind, .style = style, .text = ""};
     if (panel->last) {
         panel->last->next = mark;
@@ -243,9 +252,6 @@ static size_t points_copy(const struct gm_panel *panel, double *to, const double
 void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const char *name)
 {
     struct gm_key *key = gm_picture_memory(picture, sizeof *key);
-    if (!key) {
-        return;
-    }
     *key = (struct gm_key){.name = gm_picture_text(picture, "%s", name), .style = style};
     if (panel->last_key) {
         panel->last_key->next = key;
@@ -259,7 +265,7 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
                              const double *points, size_t count, bool closed)
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
-    if (!copy || count == 0) {
+    if (count == 0) {
         return spare(picture);
     }
 
@@ -297,7 +303,7 @@ static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_pane
                                       size_t count)
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
-    const size_t kept = copy ? points_copy(panel, copy, points, count) : 0;
+    const size_t kept = points_copy(panel, copy, points, count);
     if (kept == 0) {
         return spare(picture);
     }
@@ -354,9 +360,6 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
     double *places = memory_of(picture, count, 2 * sizeof *places);
     double *heights = memory_of(picture, count, sizeof *heights);
     int *corners = memory_of(picture, triangle_count, 3 * sizeof *corners);
-    if (!places || !heights || !corners) {
-        return spare(picture);
-    }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_MESH, opaque);
     mark_set_map(mark, map, low, high);
 
@@ -395,7 +398,7 @@ struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel
     const size_t count = columns > 0 && rows > SIZE_MAX / columns ? SIZE_MAX : rows * columns;
     double *copy = memory_of(picture, count, sizeof *copy);
     double *places = gm_picture_memory(picture, 4 * sizeof *places);
-    if (!copy || !places || count == 0 || points_copy(panel, places, corners, 2) != 2) {
+    if (count == 0 || points_copy(panel, places, corners, 2) != 2) {
         return spare(picture);
     }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_IMAGE, opaque);

@@ -140,14 +140,18 @@ struct gm_picture {
     struct gm_picture_store *arena;
 };
 
-/* Returns an empty picture; NULL when out of memory. Memory that runs short later makes marks disappear,
-   never a crash. */
+/* Returns an empty picture; NULL when out of memory. */
 struct gm_picture *gm_picture_open(void);
 void gm_picture_close(struct gm_picture *picture);
 void gm_picture_clear(struct gm_picture *picture);
 
-/* Returns memory of the picture's arena, aligned for doubles, until the next clear. NULL when out of
-   memory. */
+/* Calls draw(data, picture). Panels and marks are added by such a body, which ends early when memory runs short:
+   what was drawn until then remains, and the result is false. Bodies may be nested. */
+bool gm_picture_draw(struct gm_picture *picture, void (*draw)(const void *data, struct gm_picture *picture),
+                     const void *data);
+
+/* Returns memory of the picture's arena, aligned for doubles, until the next clear. When out of memory it leaves
+   the body that draws; NULL outside of one. */
 void *gm_picture_memory(struct gm_picture *picture, size_t size);
 /* Returns a formatted text in the arena. */
 #if defined(__GNUC__)

@@ -547,9 +547,6 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     panel->title_role = GM_INK;
     set_time_axis(picture, panel, lanes, count, series, graph);
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
-    if (!points) {
-        return;
-    }
     if (set_value_axis(panel, lanes, count, series, graph, points) && graph->scale == GM_LOG) {
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
                      (panel->x.low + panel->x.high) / 2, sqrt(panel->y.low * panel->y.high), GM_ANCHOR_CENTRE,
@@ -621,7 +618,7 @@ void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *l
 {
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
     double low = 1e-4, high = 1e-3;
-    for (size_t i = 0; points && i < count * together_count; i++) {
+    for (size_t i = 0; i < count * together_count; i++) {
         const struct gm_lane *lane = lanes[i / together_count];
         const int series = gm_scene_observable(lane->scene, together[i % together_count].observable);
         const size_t made = series < 0 ? 0 : history_points(lane, (size_t)series, 1, &greatest, points);
@@ -633,7 +630,7 @@ void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *l
     }
     gm_range_round(&low, &high, GM_LOG);
     const double range[2] = {low, high};
-    for (struct gm_walk walk = {.lanes = lanes, .count = count}; points && gm_walk_next(&walk);) {
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         draw_lane_together(picture, &walk, together, together_count, range, points);
     }
 }

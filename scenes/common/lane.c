@@ -271,10 +271,21 @@ static void note_same(const struct gm_lane *const *lanes, size_t count, struct g
     }
 }
 
+struct drawn {
+    const struct gm_lane *const *lanes;
+    size_t count;
+};
+
+static void draw(const void *data, struct gm_picture *picture)
+{
+    const struct drawn *drawn = data;
+    drawn->lanes[0]->scene->draw(drawn->lanes, drawn->count, picture);
+    note_same(drawn->lanes, drawn->count, picture);
+}
+
 void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
-    lanes[0]->scene->draw(lanes, count, picture);
-    note_same(lanes, count, picture);
+    gm_picture_draw(picture, draw, &(const struct drawn){lanes, count});
 }
 
 void gm_lane_record(struct gm_lane *lane)

@@ -44,9 +44,6 @@ void gm_space_line(struct gm_picture *picture, struct gm_panel *panel, const str
 {
     double *places = gm_picture_memory(picture, 2 * (count + 1) * sizeof *places);
     bool *hidden = gm_picture_memory(picture, (count + 1) * sizeof *hidden);
-    if (!places || !hidden) {
-        return;
-    }
     for (size_t i = 0; i < count; i++) {
         gm_space_place(space, points + 3 * i, places + 2 * i);
         hidden[i] = gm_space_hides(space, points + 3 * i, stroke.on);
@@ -99,7 +96,7 @@ void gm_space_points(struct gm_picture *picture, struct gm_panel *panel, const s
     struct disc *discs = gm_picture_memory(picture, (count + 1) * sizeof *discs);
     double *places = gm_picture_memory(picture, 2 * (count + 1) * sizeof *places);
     size_t shown = 0;
-    for (size_t i = 0; discs && places && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         discs[shown].depth = gm_space_place(space, points + 3 * i, discs[shown].place);
         discs[shown].number = i;
         shown += isfinite(discs[shown].depth) ? 1 : 0;

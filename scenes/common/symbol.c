@@ -53,9 +53,6 @@ const char *gm_typeset(struct gm_picture *picture, const char *text)
 {
     const size_t size = 4 * strlen(text) + 1;
     char *typed = gm_picture_memory(picture, size), *to = typed;
-    if (!typed) {
-        return text;
-    }
     for (const char *at = text; *at;) {
         size_t letters = 0;
         while (isalpha((unsigned char)at[letters])) {

@@ -291,14 +291,12 @@ void gm_draw_moving_frame(const struct gm_lane *const *lanes, size_t count, stru
     picture->subtitle =
         gm_picture_text(picture, "the node nearest to x = %g%s,  h = %.3g,  k = %s%s", place_of(lanes[0]),
                         constant, drawn.h, gm_step_text(picture, drawn.k), look->note);
-    for (size_t i = 0; stencils && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         stencils[i] = stencil_of(lanes[i], look, drawn.h, drawn.k);
     }
-    if (stencils) {
-        picture->state_columns = 2;
-        draw_nodes(picture, lanes, count, &drawn, false);
-        draw_nodes(picture, lanes, count, &drawn, true);
-        draw_values(picture, lanes, count, &drawn, false);
-        draw_values(picture, lanes, count, &drawn, true);
-    }
+    picture->state_columns = 2;
+    draw_nodes(picture, lanes, count, &drawn, false);
+    draw_nodes(picture, lanes, count, &drawn, true);
+    draw_values(picture, lanes, count, &drawn, false);
+    draw_values(picture, lanes, count, &drawn, true);
 }

@@ -180,9 +180,6 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
     const struct gm_lane *ahead = farthest(lanes, count);
     const struct gm_grid1 *grid = &ahead->problem.line;
     double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
-    if (!points) {
-        return;
-    }
     struct gm_panel *panel =
         gm_panel_add(picture, GM_PLACE_GRAPH,
                      gm_picture_text(picture, "%s at t = %s%s", look->name,

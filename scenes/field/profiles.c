@@ -27,7 +27,7 @@ static void draw_profile(struct gm_picture *picture, struct gm_panel *panel, con
     struct gm_style style = gm_lane_style(lane, lane->run->status != GM_OK ? 0.55 : 1, 2.2);
     double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
     size_t count = 0;
-    for (size_t j = 0; points && j < grid->points; j += stride) {
+    for (size_t j = 0; j < grid->points; j += stride) {
         const double x = gm_grid1_node(grid, j) - travelled;
         if (x > panel->x.low - reach && x < panel->x.high + reach) {
             points[2 * count] = x;
@@ -47,11 +47,11 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const
                        const struct gm_field_look *look, struct gm_style style)
 {
     double *points = gm_picture_memory(picture, 2 * EXACT * sizeof *points);
-    for (size_t i = 0; points && i < EXACT; i++) {
+    for (size_t i = 0; i < EXACT; i++) {
         points[2 * i] = panel->x.low + (panel->x.high - panel->x.low) * (double)i / (EXACT - 1);
         points[2 * i + 1] = look->exact(view, points[2 * i]);
     }
-    gm_mark_line(picture, panel, style, points, points ? EXACT : 0, false);
+    gm_mark_line(picture, panel, style, points, EXACT, false);
 }
 
 static void draw_panels(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,

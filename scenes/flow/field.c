@@ -43,9 +43,6 @@ static double *refine(struct gm_picture *picture, const struct gm_complex *compl
     const size_t n = complex->vertices;
     double *fine = gm_picture_memory(picture, (n + complex->edges) * sizeof *fine);
     double *gradient = gm_picture_memory(picture, 3 * n * sizeof *gradient);
-    if (!fine || !gradient) {
-        return NULL;
-    }
     gradients(complex, values, gradient);
     memcpy(fine, values, n * sizeof *fine);
     for (size_t e = 0; e < complex->edges; e++) {
@@ -65,8 +62,8 @@ static double *refine(struct gm_picture *picture, const struct gm_complex *compl
 
 /* A torus is drawn unfolded: vertices come nine times, shifted by the periods, and triangles that stick out
    at one side come again at the other. */
-static bool unfold(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
-                   const double *field, struct sheet *sheet)
+static struct sheet unfold(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
+                           const double *field)
 {
     enum { COPIES = 9 };
     const size_t n = complex->vertices;
@@ -74,9 +71,6 @@ static bool unfold(struct gm_picture *picture, const struct gm_complex *complex,
     double *own_psi = gm_picture_memory(picture, COPIES * n * sizeof *own_psi);
     double *user_field = gm_picture_memory(picture, COPIES * n * sizeof *user_field);
     int *triangles = gm_picture_memory(picture, 3 * 4 * complex->triangles * sizeof *triangles);
-    if (!points || !own_psi || !user_field || !triangles) {
-        return false;
-    }
     for (size_t i = 0; i < COPIES * n; i++) {
         const size_t v = i % n, copy = i / n;
         points[2 * i] = complex->point[2 * v] + complex->period[0] * ((double)(copy % 3) - 1);
@@ -111,37 +105,30 @@ static bool unfold(struct gm_picture *picture, const struct gm_complex *complex,
             }
         }
     }
-    *sheet = (struct sheet){points, own_psi, field ? user_field : NULL, triangles, COPIES * n, count};
-    return true;
+    return (struct sheet){points, own_psi, field ? user_field : NULL, triangles, COPIES * n, count};
 }
 
-/* Makes the sheet in the picture's arena; psi and field are values at the vertices. False when out of
-   memory. */
-static bool make_sheet(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
-                       const double *field, struct sheet *sheet)
+/* Makes the sheet in the picture's arena; psi and field are values at the vertices. */
+static struct sheet sheet_of(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
+                             const double *field)
 {
     if (complex->boundary == 0) {
-        return unfold(picture, complex, psi, field, sheet);
+        return unfold(picture, complex, psi, field);
     }
     if (complex->triangles > REFINED) {
-        *sheet = (struct sheet){complex->point,    psi, field, complex->triangle, complex->vertices,
-                                complex->triangles};
-        return true;
+        return (struct sheet){complex->point,    psi, field, complex->triangle, complex->vertices,
+                              complex->triangles};
     }
     const size_t n = complex->vertices;
     double *points = gm_picture_memory(picture, 2 * (n + complex->edges) * sizeof *points);
     int *triangles = gm_picture_memory(picture, 12 * complex->triangles * sizeof *triangles);
-    if (!points || !triangles) {
-        return false;
-    }
     gm_complex_quarter(complex, points, triangles);
-    *sheet = (struct sheet){.points = points,
-                            .psi = refine(picture, complex, psi),
-                            .field = field ? refine(picture, complex, field) : NULL,
-                            .triangles = triangles,
-                            .vertices = n + complex->edges,
-                            .count = 4 * complex->triangles};
-    return sheet->psi && (sheet->field || !field);
+    return (struct sheet){.points = points,
+                          .psi = refine(picture, complex, psi),
+                          .field = field ? refine(picture, complex, field) : NULL,
+                          .triangles = triangles,
+                          .vertices = n + complex->edges,
+                          .count = 4 * complex->triangles};
 }
 
 /* Returns true if the field that is shown has both signs. */
@@ -202,7 +189,7 @@ static void draw_walls(struct gm_picture *picture, struct gm_panel *panel, const
     const struct gm_complex *complex = flow->complex;
     double *points = gm_picture_memory(picture, 6 * (complex->boundary + 1) * sizeof *points);
     size_t count = 0;
-    for (size_t b = 0; points && b < complex->boundary; b++) {
+    for (size_t b = 0; b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b];
         const int *edge = complex->edge + 2 * complex->boundary_edge[b];
         const int w = edge[0] == v ? edge[1] : edge[0];
@@ -222,9 +209,7 @@ static void draw_walls(struct gm_picture *picture, struct gm_panel *panel, const
             count++;
         }
     }
-    if (points) {
-        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1, 2.2, GM_SOLID}, points, count, false);
-    }
+    gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1, 2.2, GM_SOLID}, points, count, false);
 }
 
 /* Draws the edges of the mesh, over a field of colours if `over`. */
@@ -232,7 +217,7 @@ static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const 
                       bool over)
 {
     double *points = gm_picture_memory(picture, 6 * complex->edges * sizeof *points);
-    for (size_t e = 0; points && e < complex->edges; e++) {
+    for (size_t e = 0; e < complex->edges; e++) {
         const double *a = complex->point + 2 * complex->edge[2 * e],
                      *b = complex->point + 2 * complex->edge[2 * e + 1];
         double *line = points + 6 * e;
@@ -243,11 +228,9 @@ static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const 
         }
         line[4] = line[5] = NAN;
     }
-    if (points) {
-        gm_mark_line(picture, panel,
-                     (struct gm_style){over ? GM_OVER : GM_SECONDARY, over ? 0.25 : 0.8, 0.8, GM_SOLID},
-                     points, 3 * complex->edges, false);
-    }
+    gm_mark_line(picture, panel,
+                 (struct gm_style){over ? GM_OVER : GM_SECONDARY, over ? 0.25 : 0.8, 0.8, GM_SOLID}, points,
+                 3 * complex->edges, false);
 }
 
 /* Draws tracers: a dot each, and a tail to its position a short time ago. `size`: the longer side of the domain. */
@@ -259,7 +242,7 @@ static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, con
     const size_t count = flow->tracers;
     double *tails = gm_picture_memory(picture, 6 * (count + 1) * sizeof *tails);
     double *dots = gm_picture_memory(picture, 2 * (count + 1) * sizeof *dots);
-    if (!tails || !dots || count == 0) {
+    if (count == 0) {
         return;
     }
     const double lag = 0.012 * size; /* the length of a tail at speed 1 */
@@ -295,9 +278,6 @@ static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, cons
     const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
     bool *taken = gm_picture_memory(picture, columns * rows * sizeof *taken);
     double *lines = gm_picture_memory(picture, 14 * columns * rows * sizeof *lines);
-    if (!velocities || !taken || !lines) {
-        return;
-    }
     memset(taken, 0, columns * rows * sizeof *taken);
     gm_flow_vertex_velocities(complex, gm_run_state(lane->run), velocities);
     size_t count = 0;
@@ -378,9 +358,6 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     }
     double *values = gm_picture_memory(picture, 3 * n * sizeof *values);
     double *scratch = gm_picture_memory(picture, 3 * n * sizeof *scratch);
-    if (!values || !scratch) {
-        return NULL;
-    }
     if (flows->show == GM_SHOW_SPEED) {
         gm_flow_vertex_velocities(complex, y, scratch);
         for (size_t v = 0; v < n; v++) {
@@ -389,7 +366,7 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
         return values;
     }
     double *pressure = gm_picture_memory(picture, complex->triangles * sizeof *pressure);
-    if (flows->show != GM_SHOW_PRESSURE || !pressure || !gm_flow_pressure(flow, y, pressure)) {
+    if (flows->show != GM_SHOW_PRESSURE || !gm_flow_pressure(flow, y, pressure)) {
         return NULL;
     }
     memset(values, 0, n * sizeof *values);
@@ -492,10 +469,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     const double *field = coloured ? field_of(picture, lane) : NULL;
     /* colours of fine meshes are smooth already, and four times the triangles cost three times the time */
     const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
-    struct sheet sheet;
-    if (!make_sheet(picture, complex, gm_run_state(lane->run), plain ? NULL : field, &sheet)) {
-        return panel;
-    }
+    const struct sheet sheet = sheet_of(picture, complex, gm_run_state(lane->run), plain ? NULL : field);
     if (field) {
         gm_mark_mesh(picture, panel, is_signed(flows->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, range[0],
                      range[1], plain ? complex->point : sheet.points, plain ? field : sheet.field,

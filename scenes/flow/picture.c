@@ -163,7 +163,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     for (size_t k = 0; k < GM_COUNT(errors); k++) {
         const int series = gm_scene_observable(lanes[0]->scene, errors[k].observable);
         points[k] = gm_picture_memory(picture, 2 * count * sizeof *points[k]);
-        for (size_t i = 0; series >= 0 && points[k] && i < count; i++) {
+        for (size_t i = 0; series >= 0 && i < count; i++) {
             const double x = flow_of(lanes[i])->complex->mean_edge,
                          e = gm_lane_observe(lanes[i], (size_t)series);
             if (e > 0) {

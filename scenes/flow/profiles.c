@@ -35,9 +35,6 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
     const int up = along(ends);
     double at[2 * POINTS], (*points)[2 * POINTS] = gm_picture_memory(picture, (count + 2) * sizeof *points);
     size_t *made = gm_picture_memory(picture, count * sizeof *made);
-    if (!points || !made) {
-        return;
-    }
     struct gm_panel *panel = gm_panel_add(picture, place, "");
     struct gm_axis value = {.label = profile->text     ? profile->text
                                      : quantity == 's' ? "θ"

@@ -564,7 +564,7 @@ static void draw_dye(struct gm_picture *picture, struct gm_panel *panel, const s
     const double *x = gm_run_state(lane->run) + first, *y = x + many, *dye = lane->start + first + many;
     if (many < FIELD) {
         double *points = gm_picture_memory(picture, 2 * many * sizeof *points);
-        for (int dyed = 0; points && dyed < 2; dyed++) {
+        for (int dyed = 0; dyed < 2; dyed++) {
             size_t count = 0;
             for (size_t k = 0; k < many; k++) {
                 if ((dye[k] > 0) == (dyed == 1)) {
@@ -582,9 +582,6 @@ static void draw_dye(struct gm_picture *picture, struct gm_panel *panel, const s
     const size_t side = many < 50000 ? 128 : 256, cells = side * side;
     double *values = gm_picture_memory(picture, cells * sizeof *values);
     double *there = gm_picture_memory(picture, cells * sizeof *there);
-    if (!values || !there) {
-        return;
-    }
     memset(values, 0, cells * sizeof *values);
     memset(there, 0, cells * sizeof *there);
     for (size_t k = 0; k < many; k++) {
@@ -615,9 +612,6 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
     const size_t most = past->count > trail->count ? past->count : trail->count;
     const double *state = gm_run_state(lane->run);
     double *points = gm_picture_memory(picture, 2 * (most + carried + 1) * sizeof *points);
-    if (!points) {
-        return;
-    }
     for (int sign = 1; sign >= (images ? -1 : 1); sign -= 2) {
         for (size_t i = 0; i < followed && vortices->tracers == 0; i++) {
             for (size_t k = 0; k < past->count && followed <= 8; k++) {

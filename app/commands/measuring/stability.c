@@ -83,9 +83,6 @@ static void draw_plane(const struct region *region, struct gm_picture *picture)
     double *values = gm_picture_memory(picture, (size_t)SIDE * SIDE * sizeof *values);
     double *points = gm_picture_memory(picture, (size_t)2 * SIDE * SIDE * sizeof *points);
     int *triangles = gm_picture_memory(picture, (size_t)6 * (SIDE - 1) * (SIDE - 1) * sizeof *triangles);
-    if (!values || !points || !triangles) {
-        return;
-    }
     size_t made = 0;
     bool known = true;
     for (size_t r = 0; r < SIDE; r++) {

@@ -92,7 +92,7 @@ static void show(struct gm_study *study)
     *look = study->now;
     look->picture = picture;
     gm_picture_clear(picture);
-    gm_grid_draw(&study->grid, picture);
+    gm_picture_draw(picture, gm_grid_draw, &study->grid);
     study->looked = gm_clock_seconds();
     study->told = study->now.message_number;
     pthread_mutex_lock(&study->job.lock);

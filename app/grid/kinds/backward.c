@@ -347,16 +347,14 @@ static void draw(const struct gm_grid *grid, struct gm_picture *picture)
     picture->clock = "";
     picture->graphs_below = true;
     double *points = gm_picture_memory(picture, 2 * (grid->request.count + GM_POWERS) * sizeof *points);
-    for (size_t i = 0; points && i < grid->count; i++) {
+    for (size_t i = 0; i < grid->count; i++) {
         draw_line(&grid->lines[i], &steps, &errors, picture, points);
     }
     size_t first = 0;
     while (first + 1 < grid->count && grid->lines[first].reason[0]) {
         first++;
     }
-    if (points) {
-        draw_cuts(&grid->lines[first], &errors, picture, points);
-    }
+    draw_cuts(&grid->lines[first], &errors, picture, points);
 }
 
 const struct gm_study_row gm_study_backward = {.name = "backward",

@@ -372,11 +372,11 @@ static struct place name_place(const struct names *names, const struct drawn *ow
     return best;
 }
 
-/* Values in rising order; NULL: out of memory. */
+/* Values in rising order. */
 static const double *rising(struct gm_picture *picture, const double *values, size_t count)
 {
     double *sorted = gm_picture_memory(picture, count * sizeof *sorted);
-    for (size_t i = 0; sorted && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         size_t at = i;
         for (; at > 0 && sorted[at - 1] > values[i]; at--) {
             sorted[at] = sorted[at - 1];
@@ -395,9 +395,6 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
                                   gm_picture_text(picture, "error against %s", finer)};
     const char *const labels[] = {"CPU time, s", "evaluations of f or force", finer};
     double *points = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *points);
-    if (!points) {
-        return;
-    }
     const struct gm_axis x = {.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0},
                          y = {.label = "", .scale = GM_LOG, .low = 1, .high = 0};
     struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, titles[cost], &x, &y);
@@ -412,7 +409,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
     gm_range_round(&panel->x.low, &panel->x.high, GM_LOG);
     if (cost == GM_COST_RESOLUTION && !grid->smaller_is_finer) {
         panel->x.ticks = rising(picture, grid->values.values, grid->values.count);
-        panel->x.tick_count = panel->x.ticks ? grid->values.count : 0;
+        panel->x.tick_count = grid->values.count;
     }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
     for (size_t i = 0; i < grid->begun; i++) {
@@ -427,7 +424,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
     for (size_t i = 0; i < chosen_count; i++) {
         const size_t most = grid->steps.count * grid->values.count;
         double *own = gm_picture_memory(picture, 2 * most * sizeof *own);
-        lines[i] = (struct drawn){own, own ? points_of(chosen[i], cost, own) : 0};
+        lines[i] = (struct drawn){own, points_of(chosen[i], cost, own)};
         const struct gm_style style = gm_chart_style(i);
         gm_mark_line(picture, panel, style, own, lines[i].count, false);
         gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,

@@ -363,9 +363,6 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
     const struct extent extent = extent_of(chart, observable);
     double *points = gm_picture_memory(picture, 3 * count * sizeof *points), *values = points + 2 * count;
     size_t *order = gm_picture_memory(picture, count * sizeof *order);
-    if (!points || !order) {
-        return;
-    }
     const struct gm_axis x = {.label = key_label(chart, 0, picture),
                               .scale = is_logarithmic(chart, 0) ? GM_LOG : GM_LINEAR,
                               .low = 1,
@@ -473,8 +470,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
                                 is_logarithmic(chart, axis), edges[axis]);
     }
     const struct bin *bins = bins_of(chart, observable, line);
-    const bool there = cells.points && cells.values && cells.triangles;
-    for (size_t i = 0; there && i < all; i++) {
+    for (size_t i = 0; i < all; i++) {
         const double value = mean_of(&bins[order[1][i / across] * across + order[0][i % across]]);
         /* 0 is less than any power: it has the colour of the least */
         const double shown = extent.logarithmic ? log10(fmax(value, extent.low)) : value;
@@ -485,7 +481,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const double reach = fmax(-extent.low, extent.high);
     const double low = extent.logarithmic ? log10(extent.low) : extent.is_signed ? -reach : extent.low;
     const double high = extent.logarithmic ? log10(extent.high) : extent.is_signed ? reach : extent.high;
-    if (there && !empty) {
+    if (!empty) {
         gm_mark_mesh(picture, panel, extent.is_signed ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low, high,
                      cells.points, cells.values, 4 * cells.count, cells.triangles, 2 * cells.count);
     }

@@ -270,7 +270,7 @@ struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *
                                                     : gm_system_centre(&view);
     double *points = gm_picture_memory(picture, (entries->count * width + 1) * sizeof *points),
            *states = gm_picture_memory(picture, BATCH * (n + gm_sight_numbers(sight)) * sizeof *states);
-    for (size_t first = 0, count; points && states && first < entries->count; first += count) {
+    for (size_t first = 0, count; first < entries->count; first += count) {
         count = entries->count - first < BATCH ? entries->count - first : BATCH;
         for (size_t i = 0; i < n * count; i++) {
             states[i] = entries->values[(first + i % count) * entries->width + shown * n + i / count];
@@ -281,5 +281,5 @@ struct gm_path gm_system_path(struct gm_picture *picture, const struct gm_lane *
             points[first * width + i] = values[i % width * count + i / width];
         }
     }
-    return (struct gm_path){points, entries->times, points && states ? entries->count : 0, width};
+    return (struct gm_path){points, entries->times, entries->count, width};
 }

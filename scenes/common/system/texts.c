@@ -184,15 +184,13 @@ void gm_system_open_items(struct gm_system_scene *system_scene)
 
 /* ---- writing ---- */
 
-/* Returns the values of lane number `i`; numbers is NULL when out of memory. */
+/* Returns the values of lane number `i`. */
 static struct values values_of(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                                size_t i, const struct gm_system_item *item)
 {
     const struct gm_view view = gm_lane_view(lanes[i]);
     double *numbers = gm_picture_memory(picture, (item->count + 1) * sizeof *numbers);
-    if (numbers) {
-        gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, gm_system_centre(&view), numbers);
-    }
+    gm_system_values(tape_of(gm_system_scene_of(&view), item), &view, gm_system_centre(&view), numbers);
     return (struct values){
         numbers, lanes[i]->parameters,
         gm_one_scheme(lanes, count) ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count), "−"};
@@ -203,10 +201,10 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
 {
     const struct gm_system_lane *lane = lanes[0]->parameters;
     const struct gm_system_item *item = gm_system_item_of(&lane->owner->system, word, 0);
-    struct values *values = item ? gm_picture_memory(picture, count * sizeof *values) : NULL;
-    if (!values) {
+    if (!item) {
         return otherwise;
     }
+    struct values *values = gm_picture_memory(picture, count * sizeof *values);
     size_t ahead = 0;
     for (size_t i = 0; i < count; i++) {
         const struct gm_system_scene *owner = ((const struct gm_system_lane *)lanes[i]->parameters)->owner;
@@ -216,9 +214,6 @@ const char *gm_system_shown_text(struct gm_picture *picture, const struct gm_lan
         }
         values[i] = values_of(picture, lanes, count, i, own);
         ahead = fabs(lanes[i]->run->t) > fabs(lanes[ahead]->run->t) ? i : ahead;
-        if (!values[i].numbers) {
-            return otherwise;
-        }
     }
     const bool parts = word == GM_WORD_SUBTITLE;
     const char *text = "";

@@ -196,9 +196,6 @@ const struct gm_sight *gm_system_curves(struct gm_picture *picture, const struct
     struct gm_sight *made = gm_picture_memory(picture, sizeof *made);
     struct gm_curve *curves = gm_picture_memory(picture, GM_MOST_OVER_TIME * sizeof *curves);
     bool *fixed = gm_picture_memory(picture, GM_MOST_OVER_TIME * sizeof *fixed);
-    if (!made || !curves || !fixed) {
-        return NULL;
-    }
     const size_t count =
         find_curves(parameters->owner, parameters->show + strlen(GM_SHOW_OVER_TIME), curves, sentence);
     memset(fixed, 0, GM_MOST_OVER_TIME * sizeof *fixed);
@@ -292,7 +289,7 @@ void gm_system_draw_curves(struct gm_picture *picture, struct gm_panel *panel, c
     double *points = gm_picture_memory(
         picture, 2 * (lane->entries[GM_TRACK_PAST].count + lane->entries[GM_TRACK_MEMBERS].count + 1) *
                      sizeof *points);
-    for (size_t body = 0; points && body < sight->bodies; body++) {
+    for (size_t body = 0; body < sight->bodies; body++) {
         const bool is_last = body + 1 == sight->bodies;
         struct gm_style style = {gm_lane_role(lane->shown.colour), sight->curves ? 1 : 0.9,
                                  sight->curves ? 2.2 : 1.6,

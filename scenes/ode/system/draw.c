@@ -65,7 +65,8 @@ static double extent(const struct gm_seen *seen)
 }
 
 /* Returns the range of all that a lane has shown up to now. */
-static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_paths *paths, double *numbers)
+static struct gm_seen lane_range(struct gm_picture *picture, const struct gm_lane *lane,
+                                 const struct gm_paths *paths, double *numbers)
 {
     const struct gm_sight *sight = paths->sight;
     struct gm_seen range = nothing;
@@ -86,7 +87,7 @@ static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_pat
         hold(&range, numbers, gm_sight_numbers(sight) / dimensions, dimensions);
     }
     if (dimensions == 2) {
-        gm_system_hold_levels(lane, sight, &range);
+        gm_system_hold_levels(picture, lane, sight, &range);
     }
     if (sight->over_time) {
         range.low[0] = range.high[0] = 0; /* its axis is the one of all times */
@@ -328,9 +329,6 @@ static void draw_path(const struct stage *stage, const struct gm_lane *lane, con
                  bright = bright_from(lane) > past ? bright_from(lane) : past;
     const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
     double *points = gm_picture_memory(stage->picture, 3 * (2 * most + 4) * sizeof *points);
-    if (!points) {
-        return;
-    }
     const size_t count = path_of(&paths->past, sight, body, past, now, points);
     if (is_curve(stage, points, count)) {
         put_line(stage, style_of(stage, role, FAINT), false, points, count);
@@ -354,7 +352,7 @@ static void draw_members(const struct stage *stage, const struct gm_lane *lane, 
     const size_t m = view.problem->m, shown = m - 1 < 4096 ? m - 1 : 4096, dimensions = sight->dimensions;
     const struct gm_style style = {gm_lane_role(lane->shown.colour), 0.6, shown > 400 ? 2 : 4, GM_SOLID};
     double *points = gm_picture_memory(stage->picture, dimensions * (shown + 1) * sizeof *points);
-    for (size_t body = 0; points && body < sight->bodies; body++) {
+    for (size_t body = 0; body < sight->bodies; body++) {
         for (size_t i = 0; i < shown; i++) {
             gm_sight_values(sight, &view, i * (m - 1) / shown, numbers);
             wrap(sight, numbers + dimensions * body);
@@ -371,7 +369,7 @@ static void draw_bodies(const struct stage *stage, const struct gm_sight *sight,
     const size_t dimensions = sight->dimensions;
     double *points = gm_picture_memory(stage->picture, (dimensions * sight->bodies + 1) * sizeof *points);
     size_t count = 0;
-    for (size_t body = 0; points && body < sight->bodies; body++) {
+    for (size_t body = 0; body < sight->bodies; body++) {
         if (sight->fixed[body] == fixed) {
             double *point = points + dimensions * count++;
             memcpy(point, numbers + dimensions * body, dimensions * sizeof *points);
@@ -485,24 +483,21 @@ static const char *value_now(struct gm_picture *picture, const struct gm_lane *l
                     : gm_picture_text(picture, "%s now %s", observable->title, gm_power_text(picture, value));
 }
 
-/* Makes the sight and the paths of a lane. False when out of memory. */
-static bool make_paths(struct gm_picture *picture, const struct gm_lane *lane, struct gm_paths *paths)
+/* Returns the sight and the paths of a lane. */
+static struct gm_paths paths_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_sight *sight = gm_system_curves(picture, lane);
-    *paths = (struct gm_paths){.sight = sight};
-    if (!sight) {
-        return false;
-    }
-    paths->past = gm_system_path(picture, lane, GM_TRACK_PAST, 0, sight);
-    paths->trail = gm_system_path(picture, lane, GM_TRACK_TRAIL, 0, sight);
     const size_t followed = sight->over_time ? gm_system_followed(&view) : 0;
-    paths->members = gm_picture_memory(picture, (followed + 1) * sizeof *paths->members);
-    paths->member_count = paths->members ? followed : 0;
-    for (size_t i = 0; i < paths->member_count; i++) {
-        paths->members[i] = gm_system_path(picture, lane, GM_TRACK_MEMBERS, i, sight);
+    struct gm_path *members = gm_picture_memory(picture, (followed + 1) * sizeof *members);
+    for (size_t i = 0; i < followed; i++) {
+        members[i] = gm_system_path(picture, lane, GM_TRACK_MEMBERS, i, sight);
     }
-    return true;
+    return (struct gm_paths){.sight = sight,
+                             .past = gm_system_path(picture, lane, GM_TRACK_PAST, 0, sight),
+                             .trail = gm_system_path(picture, lane, GM_TRACK_TRAIL, 0, sight),
+                             .members = members,
+                             .member_count = followed};
 }
 
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
@@ -510,19 +505,14 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     size_t most = 0;
     struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
     struct gm_paths *paths = gm_picture_memory(picture, count * sizeof *paths);
-    for (size_t i = 0; paths && i < count; i++) {
-        if (!make_paths(picture, lanes[i], &paths[i])) {
-            return;
-        }
+    for (size_t i = 0; i < count; i++) {
+        paths[i] = paths_of(picture, lanes[i]);
         const size_t own = gm_sight_numbers(paths[i].sight);
         most = own > most ? own : most;
     }
     double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
-    if (!numbers || !ranges || !paths) {
-        return;
-    }
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = lane_range(lanes[i], &paths[i], numbers);
+        ranges[i] = lane_range(picture, lanes[i], &paths[i], numbers);
     }
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
@@ -573,7 +563,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
     const struct gm_sight *sight = &own_of(lanes[0])->owner->section;
     struct gm_seen range = nothing;
     for (size_t i = 0; i < count; i++) {
-        gm_system_hold_levels(lanes[i], sight, &range);
+        gm_system_hold_levels(picture, lanes[i], sight, &range);
     }
     const bool bounded = range.low[0] <= range.high[0]; /* a lane beyond the level has left */
     for (size_t i = 0; i < count && !bounded; i++) {
@@ -594,13 +584,13 @@ static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, c
     const struct gm_sight *sight = &own_of(lane)->owner->section;
     const struct gm_entries *crossings = &lane->entries[GM_TRACK_SECTION];
     double *points = gm_picture_memory(picture, 2 * (crossings->count + 1) * sizeof *points);
-    for (size_t i = 0; points && i < crossings->count; i++) {
+    for (size_t i = 0; i < crossings->count; i++) {
         memcpy(points + 2 * i, crossings->values + 2 * i, 2 * sizeof *points);
         wrap(sight, points + 2 * i);
     }
     const double width = crossings->count < 60 ? 5 : crossings->count < 1000 ? 3.2 : 2.2;
     gm_mark_points(picture, panel, (struct gm_style){gm_lane_role(lane->shown.colour), 0.75, width, GM_SOLID},
-                   points, points ? crossings->count : 0);
+                   points, crossings->count);
 }
 
 static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)

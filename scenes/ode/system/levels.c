@@ -81,24 +81,20 @@ static const struct gm_system_scene *scene_of(const struct gm_lane *lane)
     return ((const struct gm_system_lane *)lane->parameters)->owner;
 }
 
-static bool open_level(struct level *level, const struct gm_lane *lane, const struct gm_sight *sight)
+static struct level level_of(struct gm_picture *picture, const struct gm_lane *lane,
+                             const struct gm_sight *sight)
 {
     const struct gm_view view = gm_lane_view(lane);
     const size_t variables = gm_system_scene_of(&view)->system.variable_count, most = DRAWN + 1;
-    double *all = malloc((variables * (most + 1) + 2 * most + most * most) * sizeof *all);
-    *level = (struct level){.variables = all, .variable_count = variables, .sight = sight};
-    if (all) {
-        gm_system_variables(&view, gm_system_centre(&view), true, all);
-        level->row = all + variables;
-        level->outputs = level->row + variables * most;
-        level->corners = level->outputs + 2 * most;
-    }
-    return all != NULL;
-}
-
-static void close_level(struct level *level)
-{
-    free((double *)level->variables);
+    double *all = gm_picture_memory(picture, (variables * (most + 1) + 2 * most + most * most) * sizeof *all);
+    double *row = all + variables, *outputs = row + variables * most;
+    gm_system_variables(&view, gm_system_centre(&view), true, all);
+    return (struct level){.variables = all,
+                          .variable_count = variables,
+                          .sight = sight,
+                          .row = row,
+                          .outputs = outputs,
+                          .corners = outputs + 2 * most};
 }
 
 /* Takes the next level that is drawn of a lane; false after the last. */
@@ -192,12 +188,13 @@ static bool follow(const struct level *level, struct gm_window *found, const str
     return some;
 }
 
-void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range)
+void gm_system_hold_levels(struct gm_picture *picture, const struct gm_lane *lane,
+                           const struct gm_sight *sight, struct gm_seen *range)
 {
-    struct level level;
-    if (sight->over_time || !gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+    if (sight->over_time || !gm_system_has_level(scene_of(lane), sight)) {
         return;
     }
+    struct level level = level_of(picture, lane, sight);
     for (size_t number = 0; take_level(&level, lane, &number);) {
         const struct gm_view view = gm_lane_view(lane);
         const size_t m = lane->problem.m, centre = gm_system_centre(&view);
@@ -222,7 +219,6 @@ void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *si
             }
         }
     }
-    close_level(&level);
 }
 
 void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
@@ -233,9 +229,6 @@ void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, st
     const size_t width = cells[0] + 1, corners = width * (cells[1] + 1), count = cells[0] * cells[1];
     double *points = gm_picture_memory(picture, 2 * corners * sizeof *points);
     int *triangles = gm_picture_memory(picture, 6 * count * sizeof *triangles);
-    if (!points || !triangles) {
-        return;
-    }
     for (size_t k = 0; k < corners; k++) {
         points[2 * k] = corner(&box, 0, k % width, cells[0]);
         points[2 * k + 1] = corner(&box, 1, k / width, cells[1]);
@@ -253,16 +246,15 @@ void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, c
 {
     static const size_t cells[2] = {DRAWN, DRAWN};
     const struct gm_window box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
-    struct level level;
-    if (!gm_system_has_level(scene_of(lane), sight) || !open_level(&level, lane, sight)) {
+    if (!gm_system_has_level(scene_of(lane), sight)) {
         return;
     }
+    struct level level = level_of(picture, lane, sight);
     for (size_t number = 0; take_level(&level, lane, &number);) {
         fill_grid(&level, &box, DRAWN);
         gm_system_draw_zeros(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, level.corners,
                              cells);
     }
-    close_level(&level);
 }
 
 /* Returns true if a level is drawn of one of these lanes. */

@@ -77,7 +77,8 @@ void gm_system_check_levels(struct gm_system_scene *system_scene);
 bool gm_system_has_level(const struct gm_system_scene *system_scene, const struct gm_sight *sight);
 
 /* Adds the closed curves around a lane's start to its range; an open curve adds nothing. */
-void gm_system_hold_levels(const struct gm_lane *lane, const struct gm_sight *sight, struct gm_seen *range);
+void gm_system_hold_levels(struct gm_picture *picture, const struct gm_lane *lane,
+                           const struct gm_sight *sight, struct gm_seen *range);
 
 /* Draws the lines on which a function changes its sign, from its values at the corners of a grid of cells over the
    panel, row by row from the lower left; none beside a value that is not finite. */

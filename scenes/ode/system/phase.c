@@ -122,7 +122,7 @@ static const struct net {
 static void draw_directions(struct gm_picture *picture, struct gm_panel *panel,
                             const struct gm_problem *problem, const struct net *net)
 {
-    double places[2 * ARROWS], field[2 * ARROWS];
+    double places[2 * ARROWS] = {0}, field[2 * ARROWS];
     const size_t count = net->columns * net->rows;
     const double cell[] = {(panel->x.high - panel->x.low) / (double)net->columns,
                            (panel->y.high - panel->y.low) / (double)net->rows};
@@ -217,17 +217,29 @@ static void draw_equilibria(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
+struct drawn {
+    struct gm_panel *panel;
+    const struct gm_lane *lane;
+    struct gm_portrait portrait;
+};
+
+static void draw(const void *data, struct gm_picture *picture)
+{
+    const struct drawn *drawn = data;
+    for (size_t i = 0; i < GM_COUNT(nets); i++) {
+        draw_directions(picture, drawn->panel, &drawn->lane->problem, &nets[i]);
+    }
+    draw_nullcline(picture, drawn->panel, drawn->lane, &drawn->portrait, 0);
+    draw_nullcline(picture, drawn->panel, drawn->lane, &drawn->portrait, 1);
+    draw_equilibria(picture, drawn->panel, &drawn->portrait);
+}
+
 void gm_system_draw_portrait(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
 {
-    struct gm_portrait portrait;
+    struct drawn drawn = {.panel = panel, .lane = lane};
     const struct gm_window window = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
-    if (gm_portrait_open(&portrait, &lane->problem, &window)) {
-        for (size_t i = 0; i < GM_COUNT(nets); i++) {
-            draw_directions(picture, panel, &lane->problem, &nets[i]);
-        }
-        draw_nullcline(picture, panel, lane, &portrait, 0);
-        draw_nullcline(picture, panel, lane, &portrait, 1);
-        draw_equilibria(picture, panel, &portrait);
+    if (gm_portrait_open(&drawn.portrait, &lane->problem, &window)) {
+        gm_picture_draw(picture, draw, &drawn);
     }
-    gm_portrait_close(&portrait);
+    gm_portrait_close(&drawn.portrait);
 }

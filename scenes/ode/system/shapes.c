@@ -86,7 +86,7 @@ static void draw_outline(struct gm_picture *picture, struct gm_panel *panel, con
     }
     double *shown = gm_picture_memory(picture, 2 * count * sizeof *shown);
     const bool known = (first == 0 && last == 0) || (is_known(points, 2, count) && last - first < MOST_TURNS);
-    for (double turn = first; shown && turn <= (known ? last : first); turn++) {
+    for (double turn = first; turn <= (known ? last : first); turn++) {
         for (size_t i = 0; i < count; i++) {
             shown[2 * i] = points[2 * i] - 2 * M_PI * (known ? turn : turn_of(points[2 * i]));
             shown[2 * i + 1] = points[2 * i + 1];
@@ -126,7 +126,7 @@ void gm_system_draw_shapes(struct gm_picture *picture, struct gm_panel *panel, c
                         is_known(gm_run_state(lane->run) + own->owner->disc[0] * lane->problem.m, 1, members);
     const size_t pieces = curved ? DRAWN / members : 1;
     double *points = gm_picture_memory(picture, 2 * pieces * members * sizeof *points);
-    if (!points || lane->run->t == lane->t0) {
+    if (lane->run->t == lane->t0) {
         return;
     }
     put_edge(lane, pieces, points);
