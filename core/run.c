@@ -436,8 +436,7 @@ static bool make_together(struct gm_run *run)
                                               .memory = events_of(run, run->current),
                                               .ends = run->ends,
                                               .locates = gm_run_locates(run)};
-        good = !gm_events_are_near(&waiting, values, TOGETHER) &&
-               gm_memory_refusals() == refusals;
+        good = !gm_events_are_near(&waiting, values, TOGETHER) && gm_memory_refusals() == refusals;
     }
     if (!good) {
         gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
