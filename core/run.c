@@ -632,6 +632,9 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->stopped = run->stopped;
         memcpy(events_of(next, 0), events_of(run, run->current),
                gm_events_memory(run->problem) * sizeof(double));
+        if (gm_run_locates(next) && !gm_run_locates(run)) {
+            arm(next); /* sides of breaks were not followed */
+        }
         next->steps = run->steps;
         next->evaluations = run->evaluations;
         next->solves = run->solves;
