@@ -63,7 +63,7 @@ static size_t counts_at(const struct gm_problem *problem)
     return problem->events->count;
 }
 
-/* The number of the first break; those that are not located are no events. */
+/* The number of the first break. */
 static size_t first_break(const struct gm_problem *problem)
 {
     return problem->events->count - problem->events->breaks;
@@ -132,8 +132,7 @@ void gm_events_clear(const struct gm_problem *problem, double *memory)
 /* The sign of dg/dt ahead, of the motion with these modes. */
 static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look)
 {
-    const struct gm_problem *motion =
-        step->motion(step->data, gm_events_modes(step->problem, step->memory));
+    const struct gm_problem *motion = step->motion(step->data, gm_events_modes(step->problem, step->memory));
     const double sign = motion ? sign_of(step->problem->events->rate(step->problem, motion, event, look)) : 0;
     return step->dt < 0 ? -sign : sign;
 }
@@ -207,7 +206,7 @@ struct rest {
     double *from, *to;                  /* states with their carries; `to`: room for a trial */
     double *look, *before, *after;      /* looks */
     double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
-    double *modes;  /* of breaks before a change */
+    double *modes;                      /* of breaks before a change */
     double *places; /* for each event the fraction of `rest` where it happens; NaN: it does not */
 };
 
@@ -258,7 +257,7 @@ static double place_of(struct rest *rest, size_t event)
     return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
 }
 
-/* A break without a side waits on the one where the rest has led, which is made again there. Returns false if that
+/* Gives breaks without a side the one where the rest has led, and makes the rest on that side. Returns false if it
    fails. */
 static bool take_sides(struct rest *rest)
 {

@@ -24,7 +24,7 @@ struct gm_events {
     bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
     /* Writes the n components after an event. */
     void (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
-    /* Returns dg/dt along a motion: that of the problem, or with frozen switches. */
+    /* Returns dg/dt along a motion, of the problem or with frozen switches. */
     double (*rate)(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
                    const double *look);
     /* v := S v, n numbers, for a small error v of the state before the event,
@@ -49,7 +49,7 @@ struct gm_events {
 /* A part of a step that ends with an event. */
 struct gm_event_part {
     size_t event;
-    const double *begin, *before, *after;     /* looks: where the part begins, before and after the change */
+    const double *begin, *before, *after;    /* looks: where the part begins, before and after the change */
     const struct gm_problem *ahead, *beyond; /* the motions before and after it */
 };
 /* Sees every event, in order. */

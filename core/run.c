@@ -436,8 +436,7 @@ static bool make_together(struct gm_run *run)
                                               .memory = events_of(run, run->current),
                                               .ends = run->ends,
                                               .locates = gm_run_locates(run)};
-        good = !gm_events_are_near(&waiting, values, TOGETHER) &&
-               gm_memory_refusals() == refusals;
+        good = !gm_events_are_near(&waiting, values, TOGETHER) && gm_memory_refusals() == refusals;
     }
     if (!good) {
         gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
@@ -633,6 +632,9 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->stopped = run->stopped;
         memcpy(events_of(next, 0), events_of(run, run->current),
                gm_events_memory(run->problem) * sizeof(double));
+        if (gm_run_locates(next) && !gm_run_locates(run)) {
+            arm(next); /* sides of breaks were not followed */
+        }
         next->steps = run->steps;
         next->evaluations = run->evaluations;
         next->solves = run->solves;

@@ -26,6 +26,7 @@
 #include "core/model/invariants.h"
 #include "core/model/recognition.h"
 #include "core/ode/families/splitting/parts.h"
+#include "core/ode/indicators/stiffness.h"
 #include "core/ode/user/evolution.h"
 #include "core/ode/user/forms.h"
 #include "core/ode/user/problem.h"
@@ -495,6 +496,15 @@ static void each_fact(const struct report *report,
             put(row, gm_fact_word(fact), "", finding->holds, reason);
         }
         free(reason);
+    }
+    const struct gm_system_item *until = gm_system_item_of(system, GM_WORD_UNTIL, 0);
+    if (until && system->kind <= GM_POISSON && report->problem.kind) {
+        const struct gm_stiffness stiffness =
+            gm_stiffness_of(&report->problem, start_of(report), until->value);
+        if (stiffness.stiff) {
+            put(row, "stiff", "", true,
+                gm_arena_print(report->arena, "rates %.2g to %.2g", stiffness.slow, stiffness.fast));
+        }
     }
 }
 

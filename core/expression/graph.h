@@ -94,7 +94,7 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
 /* gm_formula_apply with `simplifies` set, for derived formulas. */
 gm_node_id gm_simplified(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b);
 
-/* What a node becomes whose operands have become a and b; GM_NO_NODE: the same operation of these. */
+/* Returns what a node becomes when its operands have become a and b; GM_NO_NODE: the same operation of these. */
 typedef gm_node_id gm_rewriter(struct gm_formula *graph, gm_node_id node, gm_node_id a, gm_node_id b,
                                const void *data);
 /* Rewrites the nodes, in place, from their operands up. Returns false when out of memory. */

@@ -8,10 +8,40 @@
 #include "core/model/breaks.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
-#include "core/model/facts.h"
+
+const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_system *system)
+{
+    const struct gm_formula *graph = &system->graph;
+    bool *varying = gm_arena_take(arena, system->variable_count, sizeof *varying);
+    for (size_t i = 0; i < system->initial; i++) {
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    bool *found = gm_arena_keep(arena, gm_formula_dependent(graph, varying, system->variable_count), free);
+    for (gm_node_id i = 0; i < graph->count; i++) {
+        const enum gm_operation operation = graph->nodes[i].operation;
+        found[i] = found[i] && operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
+    }
+    return found;
+}
+
+/* The number of operations in the rates that are not smooth. */
+static size_t count_switches(const struct gm_user_system *system)
+{
+    const size_t mark = gm_arena_mark(system->arena);
+    const bool *switches = gm_breaks_switches(system->arena, system);
+    size_t count = 0, found = 0;
+    const gm_node_id *parts = gm_arena_keep(
+        system->arena, gm_formula_parts_of(&system->graph, system->rates, system->n, &count), free);
+    for (size_t k = 0; k < count; k++) {
+        found += switches[parts[k]];
+    }
+    gm_arena_release(system->arena, mark);
+    return found;
+}
 
 static bool can_be_located(const struct gm_user_system *system)
 {
@@ -19,16 +49,14 @@ static bool can_be_located(const struct gm_user_system *system)
     for (size_t i = 0; i < system->velocities; i++) {
         free = free && strcmp(system->variables[i].name, GM_BREAKS_KEY) != 0;
     }
-    return free &&
-           (system->kind == GM_CANONICAL || system->kind == GM_RATES) &&
-           !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) &&
-           system->choices.count < GM_MOST_CHOICES;
+    return free && (system->kind == GM_CANONICAL || system->kind == GM_RATES) &&
+           !gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) && system->choices.count < GM_MOST_CHOICES;
 }
 
 void gm_breaks_declare(struct gm_user_system *system)
 {
     static const char *const words[] = {"located", "ignored"};
-    const size_t switches = can_be_located(system) ? gm_facts_switches(system) : 0;
+    const size_t switches = can_be_located(system) ? count_switches(system) : 0;
     if (switches == 0 || switches > GM_MOST_BREAKS || gm_choice_named(&system->choices, GM_BREAKS_KEY)) {
         return;
     }
@@ -38,12 +66,6 @@ void gm_breaks_declare(struct gm_user_system *system)
     for (size_t i = 0; i < GM_COUNT(words); i++) {
         snprintf(choice->words[i], sizeof choice->words[i], "%s", words[i]);
     }
-}
-
-bool gm_breaks_are_located(const struct gm_user_system *system)
-{
-    const struct gm_written_choice *choice = gm_choice_named(&system->choices, GM_BREAKS_KEY);
-    return choice && strcmp(choice->words[choice->chosen], "located") == 0;
 }
 
 static gm_node_id applied(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
@@ -79,8 +101,9 @@ static gm_node_id frozen_below(struct gm_freezing *freezing, gm_node_id a, gm_no
                      sign = frozen_at(freezing,
                                       high == zero ? low : applied(graph, GM_OPERATION_SUBTRACT, low, high),
                                       GM_NO_NODE);
-    return sign == GM_NO_NODE ? sign
-                              : applied(graph, GM_OPERATION_BELOW, turned ? zero : sign, turned ? sign : zero);
+    return sign == GM_NO_NODE
+               ? sign
+               : applied(graph, GM_OPERATION_BELOW, turned ? zero : sign, turned ? sign : zero);
 }
 
 /* c a + (1 - c) b */

@@ -7,8 +7,6 @@
 #include "core/model/system.h"
 
 enum { GM_MOST_BREAKS = 64 };
-/* The key whose words are located and ignored. */
-#define GM_BREAKS_KEY "breaks"
 
 /* A switch, frozen by the value of a variable: the sign of g, -1, 0 or 1; or of floor, ceil and mod the whole number
    below x, where g = sin(pi x). */
@@ -20,16 +18,16 @@ struct gm_break {
 /* Adds the key to a system with switches that can be located: it has coordinates, or components with rates, no
    constraint, and at most GM_MOST_BREAKS switches. */
 void gm_breaks_declare(struct gm_user_system *system);
-/* Returns true if the key's word is located. */
-bool gm_breaks_are_located(const struct gm_user_system *system);
+/* Returns a flag for each node that is not smooth in the state or the time, in the arena. */
+const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_system *system);
 
 /* Nodes in which switches are frozen, with the switches that were found. */
 struct gm_freezing {
     struct gm_user_system *system;
     struct gm_break *list; /* [GM_MOST_BREAKS] */
     size_t count;
-    bool closed; /* no further switch is frozen */
-    bool full;   /* there are more */
+    bool closed;         /* no further switch is frozen */
+    bool full;           /* there are more */
     const bool *varying; /* of gm_formula_dependent, over the components, the time and velocities */
     size_t node_count;   /* its length */
 };

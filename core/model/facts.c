@@ -934,37 +934,6 @@ static const gm_node_id *parts_of_equations(struct gm_arena *arena, const struct
     return gm_arena_keep(arena, gm_formula_parts_of(&system->graph, roots, count, part_count), free);
 }
 
-/* A flag for each node that is not smooth in the state or the time. */
-static const bool *find_switches(struct gm_arena *arena, const struct gm_user_system *system)
-{
-    const struct gm_formula *graph = &system->graph;
-    bool *varying = gm_arena_take(arena, system->variable_count, sizeof *varying);
-    for (size_t i = 0; i < system->initial; i++) {
-        varying[i] = i < system->parameters || i >= system->velocities;
-    }
-    bool *found = gm_arena_keep(arena, gm_formula_dependent(graph, varying, system->variable_count), free);
-    for (gm_node_id i = 0; i < graph->count; i++) {
-        const enum gm_operation operation = graph->nodes[i].operation;
-        found[i] = found[i] && operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
-    }
-    return found;
-}
-
-size_t gm_facts_switches(struct gm_user_system *system)
-{
-    const size_t mark = gm_arena_mark(system->arena);
-    size_t count = 0, found = 0;
-    struct gm_user_system rates = *system; /* an energy may have more of them */
-    rates.kind = system->kind == GM_CANONICAL ? GM_RATES : system->kind;
-    const gm_node_id *parts = parts_of_equations(system->arena, &rates, &count);
-    const bool *switches = find_switches(system->arena, system);
-    for (size_t k = 0; k < count; k++) {
-        found += switches[parts[k]];
-    }
-    gm_arena_release(system->arena, mark);
-    return found;
-}
-
 /* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
 static void find_of_parts(const struct search *search)
 {
@@ -972,7 +941,7 @@ static void find_of_parts(const struct search *search)
     size_t count = 0;
     gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE;
     const gm_node_id *parts = parts_of_equations(system->arena, system, &count);
-    const bool *switches = find_switches(system->arena, system);
+    const bool *switches = gm_breaks_switches(system->arena, system);
     for (size_t k = count; k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         rough = switches[parts[k]] ? parts[k] : rough;
@@ -1084,7 +1053,7 @@ static void write_switches(struct gm_arena *arena, const struct reason *reason)
     const struct gm_naming naming = gm_system_naming(system);
     size_t count = 0, named = 0;
     const gm_node_id *parts = parts_of_equations(arena, system, &count);
-    const bool *switches = find_switches(arena, system);
+    const bool *switches = gm_breaks_switches(arena, system);
     for (size_t k = 0; k < count && named < MOST; k++) {
         const gm_node_id node = parts[k];
         if (switches[node] && system->graph.places[node] != GM_NO_PLACE && node != reason->finding->term) {
@@ -1131,8 +1100,8 @@ static void write_reason(struct gm_arena *arena, void *data)
               out);
         write_switches(arena, reason);
         if (system->kind <= GM_POISSON) {
-            fputs(gm_breaks_are_located(system) ? "; breaks are located, by schemes of one step"
-                                                : "; breaks are not located",
+            fputs(gm_system_locates_breaks(system) ? "; breaks are located, by schemes of one step"
+                                                   : "; breaks are not located",
                   out);
         }
     }

@@ -41,9 +41,6 @@ struct gm_finding {
     const gm_node_id *nodes; /* nodes of the facet of core/ode/ode.h, if it holds; owned by the system */
 };
 
-/* The number of operations in the rates that are not smooth in the state or the time. Leaves the body of the system's
-   arena when out of memory. */
-size_t gm_facts_switches(struct gm_user_system *system);
 /* The word of a fact: "separable". */
 const char *gm_fact_word(enum gm_fact fact);
 /* Finds all facts. False when out of memory. */

@@ -8,7 +8,6 @@
 #include "core/basics.h"
 #include "core/expression/linear_part.h"
 #include "core/expression/number.h"
-#include "core/model/breaks.h"
 
 static const struct gm_span nameless = {0, 0};
 
@@ -654,6 +653,11 @@ static void read_matrix(struct gm_reading *reading, const struct gm_read_line *l
     }
     gm_system_refuse_if(system, rows != n, line->value.begin, "%s has %zu rows for %zu components",
                         word_of(line), rows, n);
+}
+
+bool gm_system_locates_breaks(const struct gm_user_system *system)
+{
+    return gm_choice_named(&system->choices, GM_BREAKS_KEY) && !system->ignores_breaks;
 }
 
 const char *const *gm_system_choices(enum gm_system_word word)

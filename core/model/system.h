@@ -197,6 +197,8 @@ struct gm_user_system {
 /* A new value of a parameter, "N", "5", or a new word of a choice. With the name GM_WITHOUT_TANGENTS the motion alone
    is read. */
 #define GM_WITHOUT_TANGENTS "tangents:"
+/* The choice of systems with switches whose breaks can be located (core/model/breaks.h). */
+#define GM_BREAKS_KEY "breaks"
 struct gm_system_value {
     const char *name, *text;
 };
@@ -278,6 +280,8 @@ const struct gm_system_item *gm_system_item_named(const struct gm_user_system *s
 
 /* The words that a line of few words may have, then NULL: space, boundary of a line, star, interior. */
 const char *const *gm_system_choices(enum gm_system_word word);
+/* Returns true if the steps of the system end at breaks. */
+bool gm_system_locates_breaks(const struct gm_user_system *system);
 /* The index of the system's word among these; 0, the first, without such a line. */
 size_t gm_system_chosen(const struct gm_user_system *system, enum gm_system_word word);
 

@@ -18,6 +18,7 @@
 #include "core/linear/eigenvalues.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
+#include "core/ode/indicators/stiffness.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
@@ -325,55 +326,9 @@ static double radian_along(const struct gm_problem *problem, const double *y, do
     return radian;
 }
 
-/* Returns max(-Re eig J) at a state, at least 0. */
-static double decay_at(const struct gm_problem *problem, const double *y, double *matrix)
+static double is_stiff(const struct gm_problem *problem, const double *y, double until)
 {
-    const size_t n = problem->n;
-    double *re = matrix + n * n, fastest = 0;
-    const bool known = gm_jacobian(problem, y, matrix) && gm_eigenvalues(matrix, n, re, re + n);
-    for (size_t i = 0; known && i < n; i++) {
-        fastest = fmax(fastest, -re[i]);
-    }
-    return fastest;
-}
-
-/* Returns 1 if a > 1e3 b and a until > 1e4, where a is the rate of the fastest decay at the start and at 4 points of a trial
-   with gsl-msbdf over until / 100, and b the rate of the solution after its first quarter, max |f_i| / (|y_i| + s), s the
-   largest |y_j| of the trial. 0 also if the problem has no Jacobian, the trial fails, or when out of memory. */
-static double stiffness(const struct gm_problem *problem, const double *y0, double until)
-{
-    enum { POINTS = 4, PART = 100 };
-    const size_t n = problem->n;
-    const struct gm_settings settings = {0};
-    const struct gm_scheme *scheme = gm_scheme_find("gsl-msbdf");
-    const bool fits = gm_matrix_size(problem) > 0 && gm_scheme_fits(scheme, problem);
-    double *matrix = fits ? calloc(n * n + 4 * n, sizeof *matrix) : NULL;
-    struct gm_run *run =
-        matrix && until > 0 ? gm_run_open(problem, scheme, &settings, 0, until / PART / POINTS, y0) : NULL;
-    if (!run) {
-        free(matrix);
-        return 0;
-    }
-    double *sizes = matrix + n * n + 2 * n, *rates = sizes + n, scale = 0;
-    double fast = decay_at(problem, y0, matrix), slow = 0;
-    for (int i = 0; i < POINTS && gm_run_advance(run, 1) == GM_OK; i++) {
-        const double *y = gm_run_state(run);
-        fast = fmax(fast, decay_at(problem, y, matrix));
-        for (size_t c = 0; c < n; c++) {
-            scale = fmax(scale, fmax(fabs(y0[c]), fabs(y[c])));
-            sizes[c] = i == 0 ? fabs(y[c]) : sizes[c];
-        }
-        if (i == 0) {
-            gm_field(problem, y, rates, 1);
-        }
-    }
-    for (size_t c = 0; c < n && scale > 0; c++) {
-        slow = fmax(slow, fabs(rates[c]) / (sizes[c] + scale));
-    }
-    const bool stiff = run->status == GM_OK && fast > 1e3 * slow && fast * until > 1e4;
-    gm_run_close(run);
-    free(matrix);
-    return stiff;
+    return gm_stiffness_of(problem, y, until).stiff;
 }
 
 /* Measures a lane's problem with one member at its start; `otherwise` if it is large, or when out of memory. */
@@ -535,7 +490,7 @@ static void make_timing(struct gm_system_scene *system_scene)
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
     system_scene->is_stiff = !(numbers[0] > 0) && !(numbers[2] >= 0) && !system->texts[GM_WORD_SCHEMES] &&
-                             measure_start(system_scene->initial, stiffness, until, 0) > 0;
+                             measure_start(system_scene->initial, is_stiff, until, 0) > 0;
     gm_written_timing(system_scene->arena, system,
                       system_scene->is_stiff ? gm_written_rounded(until / STIFF_STEPS) : dt, until,
                       system_scene->rows);

@@ -887,6 +887,9 @@ for scheme in verlet-position rk4 gauss4 midpoint avf2 radau5 tao2; do
     done
     [ -s located.state ] && cmp -s located.state ignored.state || fail "switches that are far away change bits by $scheme"
 done
+# the rates of Robertson's reactions: that of the slowest component, and of the fastest decay (Gear, 1971)
+printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2\nstart: a = 1, b = 0, c = 0\nuntil: 40\n' >robertson.system
+"$geomint" list robertson.system --long | grep -q 'stiff *yes rates 0.038 to 2.2e+03' || fail 'the rates of a stiff system'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
 refused 1 'no parameter "breaks"' run ./wall.system breaks=located
 # a quotient that is infinite on the way to a finite rate

@@ -435,7 +435,7 @@ static void doubt(struct gm_certificate *certificate, const struct gm_subject *s
     const unsigned drifts = GM_KEEPS_ENERGY | GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR |
                             GM_KEEPS_MOMENTUM_MAPS,
                    back = GM_SYMMETRIC | GM_REVERSIBLE,
-                   decided = isnan(subject->passed)                  ? 0
+                   decided = isnan(subject->passed)                 ? 0
                              : subject->problem.events->breaks == 1 ? drifts | back
                                                                     : drifts;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -466,8 +466,7 @@ static void see_passage(void *data, const struct gm_event_part *part)
     for (size_t i = events->count - events->breaks; i < events->count; i++) {
         least = passages->counts[i] < least ? passages->counts[i] : least;
     }
-    passages->twice =
-        isnan(passages->twice) && events->breaks > 0 && least >= 2 ? t : passages->twice;
+    passages->twice = isnan(passages->twice) && events->breaks > 0 && least >= 2 ? t : passages->twice;
 }
 
 /* Returns the state half a step before the first event or break of a run, and one a whole step earlier, from which one step
@@ -483,10 +482,9 @@ static double *start_before_event(const struct gm_subject *subject, double *pass
     const bool looks = events && (events->changes || events->breaks > 0);
     double *state = looks ? malloc(2 * bytes) : NULL;
     passages.counts = looks ? calloc(events->count, sizeof *passages.counts) : NULL;
-    struct gm_run *run =
-        state && passages.counts
-            ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start)
-            : NULL;
+    struct gm_run *run = state && passages.counts ? gm_run_open(problem, subject->scheme, &settings, 0,
+                                                                subject->dt, subject->start)
+                                                  : NULL;
     if (run) {
         run->witness = (struct gm_event_witness){see_passage, &passages};
     }

@@ -25,8 +25,8 @@ struct gm_tangent {
     struct gm_run *run;
     const struct gm_problem *motion; /* of the step or part, with its switches frozen */
     struct gm_problem between;       /* the same without events */
-    struct gm_run *probe;      /* a second run for differences; NULL: not needed yet */
-    double h;                  /* the length of the step or part */
+    struct gm_run *probe;            /* a second run for differences; NULL: not needed yet */
+    double h;                        /* the length of the step or part */
     size_t n, memory;
     size_t stages;         /* number of stages; 0: differences only */
     double *a[GM_SIDES];   /* stages * stages by rows */
@@ -563,8 +563,7 @@ static void see_event(void *data, const struct gm_event_part *part)
     take(tangent, part->ahead);
     tangent->broken = tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before));
     for (size_t k = 0; k < tangent->count && !tangent->broken; k++) {
-        tangent->grazes = tangent->broken =
-            !problem->events->carry(problem, part, tangent->v + k * size);
+        tangent->grazes = tangent->broken = !problem->events->carry(problem, part, tangent->v + k * size);
     }
     take(tangent, part->beyond);
     memcpy(tangent->before, part->after, n * sizeof *tangent->before);

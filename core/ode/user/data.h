@@ -55,7 +55,8 @@ struct gm_user_data {
     struct gm_degenerate degenerate;
     struct gm_late_tape tapes[GM_USER_FORMULAS];
     struct gm_events events;
-    struct gm_late_tape *changes, *event_slopes; /* of each event: conditions and new values; slopes, also of breaks */
+    struct gm_late_tape *changes,
+        *event_slopes;           /* of each event: conditions and new values; slopes, also of breaks */
     struct gm_late_tape *rates;  /* one by one, where each component alone has an exact flow; else NULL */
     struct gm_late_tape *pieces; /* of the energy of a bracket: rates and slopes of each */
     double *frequencies;         /* one per coordinate */

@@ -9,7 +9,6 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/user/data.h"
-#include "core/ode/user/problem.h"
 
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
    components and the time. */
@@ -113,7 +112,8 @@ static double rate(const struct gm_problem *problem, const struct gm_problem *mo
                    const double *look)
 {
     struct saltation saltation;
-    const double sum = open_saltation(problem, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
+    const double sum =
+        open_saltation(problem, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
     free(saltation.slopes);
     return sum;
 }
@@ -194,9 +194,7 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
     }
 }
 
-/* ---- problems with frozen switches ---- */
-
-/* For a whole number, the one below x whose parity the sign of sin(pi x) tells, for x close to a jump as well. */
+/* The sign; or the whole number below x whose parity has that sign of sin(pi x), also close to a jump. */
 static double mode(const struct gm_problem *problem, size_t event, const double *look, double sign)
 {
     const struct gm_user_frozen *frozen = gm_user_data_of(problem)->model->frozen;
@@ -209,76 +207,6 @@ static double mode(const struct gm_problem *problem, size_t event, const double 
     const double x = values[i], below = floor(x);
     const bool even = fmod(below, 2) == 0;
     return sign == 0 || even == (sign > 0) ? below : x - below < 0.5 ? below - 1 : below + 1;
-}
-
-enum { KEPT = 8 };
-
-/* Problems with frozen switches, the last ones that were asked for. */
-struct frozen_problems {
-    size_t count, next, latest;
-    struct {
-        struct gm_problem problem;
-        double modes[GM_MOST_BREAKS];
-    } list[KEPT];
-};
-
-/* Opens a problem with these switches. */
-static bool open_frozen(const struct gm_problem *problem, const double *modes, struct gm_problem *opened)
-{
-    const struct gm_user_data *data = gm_user_data_of(problem);
-    const struct gm_user_frozen *frozen = data->model->frozen;
-    const size_t own = data->model->system->variable_count;
-    double *values = malloc(frozen->system.variable_count * sizeof *values);
-    if (!values) {
-        return false;
-    }
-    memcpy(values, data->values, own * sizeof *values);
-    memcpy(values + own, modes, frozen->count * sizeof *values);
-    const bool good = gm_user_problem_open(opened, &frozen->model, values);
-    free(values);
-    if (good) {
-        opened->name = problem->name;
-        opened->bound = problem->bound;
-        opened->events = NULL;
-    }
-    return good;
-}
-
-static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
-{
-    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
-    struct frozen_problems *problems = *frozen = *frozen ? *frozen : calloc(1, sizeof *problems);
-    if (!problems) {
-        return NULL;
-    }
-    for (size_t k = 0; k < problems->count; k++) {
-        const size_t i = (problems->latest + k) % problems->count;
-        if (memcmp(problems->list[i].modes, modes, size) == 0) {
-            problems->latest = i;
-            return &problems->list[i].problem;
-        }
-    }
-    problems->next += problems->count == KEPT && problems->next == problems->latest; /* it is still in use */
-    const size_t i = problems->count < KEPT ? problems->count : problems->next++ % KEPT;
-    problems->next %= KEPT;
-    gm_user_problem_close(&problems->list[i].problem);
-    memset(problems->list[i].modes, 0xff, sizeof problems->list[i].modes); /* if it cannot be opened */
-    problems->count += problems->count < KEPT && i == problems->count;
-    if (!open_frozen(problem, modes, &problems->list[i].problem)) {
-        return NULL;
-    }
-    memcpy(problems->list[i].modes, modes, size);
-    problems->latest = i;
-    return &problems->list[i].problem;
-}
-
-static void melt(void *frozen)
-{
-    struct frozen_problems *problems = frozen;
-    for (size_t i = 0; problems && i < problems->count; i++) {
-        gm_user_problem_close(&problems->list[i].problem);
-    }
-    free(problems);
 }
 
 /* ---- opening ---- */
@@ -295,8 +223,8 @@ static void open_breaks(struct gm_user_data *self, const char **names)
         char *text = gm_formula_text(graph, frozen->surfaces[i], &naming);
         names[first + i] = gm_arena_print(self->arena, "%.120s", text ? text : "a long term");
         free(text);
-        self->event_slopes[first + i] = (struct gm_late_tape){
-            graph, event->slope_nodes, event->slopes.count, inputs, self->values, NULL};
+        self->event_slopes[first + i] =
+            (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, self->values, NULL};
         gm_arena_keep(self->arena, &self->event_slopes[first + i], gm_late_tape_close);
     }
     self->tapes[GM_USER_BREAKS] =
@@ -334,8 +262,6 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .carry = carry,
                                       .carry_within = carry_within,
                                       .mode = mode,
-                                      .freeze = freeze,
-                                      .melt = melt,
                                       .conserved = conserved};
     if (breaks > 0) {
         open_breaks(self, names);

@@ -76,9 +76,9 @@ struct gm_user_model {
     struct gm_user_bracket bracket;
     struct gm_user_event *events; /* in the order of the file */
     size_t event_count;
-    gm_node_id *surfaces; /* [event_count], the g that become 0 */
+    gm_node_id *surfaces;          /* [event_count], the g that become 0 */
     struct gm_user_frozen *frozen; /* NULL: no breaks are located */
-    const char *names;    /* the components' names, in the format of struct gm_ode */
+    const char *names;             /* the components' names, in the format of struct gm_ode */
 };
 
 /* The same system with its switches frozen (core/model/breaks.h); it has further variables behind its own. */
@@ -96,6 +96,5 @@ void gm_user_lagrangian_derive(struct gm_arena *arena, struct gm_user_lagrangian
                                struct gm_user_system *system);
 void gm_user_bracket_derive(struct gm_arena *arena, struct gm_user_bracket *model,
                             struct gm_user_system *system);
-void gm_user_breaks_derive(struct gm_arena *arena, struct gm_user_model *model);
 
 #endif

@@ -8,9 +8,6 @@
 /* Opens the model in the system's arena; the system's graph grows. Returns false when out of memory. */
 bool gm_user_model_open(struct gm_user_model *model, struct gm_user_system *system);
 
-/* The same without the formulas whose switches are frozen. */
-bool gm_user_model_open_smooth(struct gm_user_model *model, struct gm_user_system *system);
-
 /* Reads a system again with these values of its parameters, or its motion without tangents; inside a body of the
    arena, which is left when out of memory. The caller closes it in all cases. */
 void gm_user_system_again(struct gm_arena *arena, const struct gm_user_system *system, const double *values,

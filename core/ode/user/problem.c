@@ -433,6 +433,9 @@ static bool is_trace_free(struct gm_user_data *self, const struct gm_problem *pr
            fabs(a[0] + a[4] + a[8]) <= 1e-15 * (fabs(a[0]) + fabs(a[4]) + fabs(a[8]));
 }
 
+static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes);
+static void melt(void *frozen);
+
 struct opening {
     struct gm_problem *problem;
     const struct gm_user_model *model;
@@ -507,6 +510,8 @@ static void open_problem(struct gm_arena *arena, void *data)
     open_monitor(self);
     gm_user_bracket_open(problem);
     gm_user_events_open(problem);
+    self->events.freeze = freeze;
+    self->events.melt = melt;
     if (system->tangents == 0 && !constrained) {
         gm_user_parts_open(problem);
     }
@@ -527,6 +532,80 @@ bool gm_user_problem_open(struct gm_problem *problem, const struct gm_user_model
     }
     return opened;
 }
+
+/* ---- problems with frozen switches ---- */
+
+enum { KEPT = 8 };
+
+/* Problems with frozen switches, the last ones that were asked for. */
+struct frozen_problems {
+    size_t count, next, latest;
+    struct {
+        struct gm_problem problem;
+        double modes[GM_MOST_BREAKS];
+    } list[KEPT];
+};
+
+/* Opens a problem with these switches. */
+static bool open_frozen(const struct gm_problem *problem, const double *modes, struct gm_problem *opened)
+{
+    const struct gm_user_data *data = gm_user_data_of(problem);
+    const struct gm_user_frozen *frozen = data->model->frozen;
+    const size_t own = data->model->system->variable_count;
+    double *values = malloc(frozen->system.variable_count * sizeof *values);
+    if (!values) {
+        return false;
+    }
+    memcpy(values, data->values, own * sizeof *values);
+    memcpy(values + own, modes, frozen->count * sizeof *values);
+    const bool good = gm_user_problem_open(opened, &frozen->model, values);
+    free(values);
+    if (good) {
+        opened->name = problem->name;
+        opened->bound = problem->bound;
+        opened->events = NULL;
+    }
+    return good;
+}
+
+static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
+{
+    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
+    struct frozen_problems *problems = *frozen = *frozen ? *frozen : calloc(1, sizeof *problems);
+    if (!problems) {
+        return NULL;
+    }
+    for (size_t k = 0; k < problems->count; k++) {
+        const size_t i = (problems->latest + k) % problems->count;
+        if (memcmp(problems->list[i].modes, modes, size) == 0) {
+            problems->latest = i;
+            return &problems->list[i].problem;
+        }
+    }
+    problems->next += problems->count == KEPT && problems->next == problems->latest; /* it is still in use */
+    const size_t i = problems->count < KEPT ? problems->count : problems->next++ % KEPT;
+    problems->next %= KEPT;
+    gm_user_problem_close(&problems->list[i].problem);
+    memset(problems->list[i].modes, 0xff, sizeof problems->list[i].modes); /* if it cannot be opened */
+    problems->count += problems->count < KEPT && i == problems->count;
+    if (!open_frozen(problem, modes, &problems->list[i].problem)) {
+        return NULL;
+    }
+    memcpy(problems->list[i].modes, modes, size);
+    problems->latest = i;
+    return &problems->list[i].problem;
+}
+
+static void melt(void *frozen)
+{
+    struct frozen_problems *problems = frozen;
+    for (size_t i = 0; problems && i < problems->count; i++) {
+        gm_user_problem_close(&problems->list[i].problem);
+    }
+    free(problems);
+}
+
+/* ---- motions and kernels ---- */
 
 static void close_motion(void *data)
 {

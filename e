@@ -1,0 +1,1 @@
+geomint: scene wall has no parameter "breaks"; see geomint list ./wall.system
