@@ -183,7 +183,7 @@ bool gm_drive_to(struct gm_drive *drive, int64_t step, bool record, char *messag
         if (rest != 0) {
             gm_run_set_step(lane->run, rest);
         }
-        lane->run->shortens = !has_whole_steps(drive);
+        lane->run->shortens = lane->scheme->family->adaptive && !has_whole_steps(drive);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);

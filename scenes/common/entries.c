@@ -247,7 +247,7 @@ static void unwind(struct gm_entries *entries, double t)
     }
 }
 
-static bool is_due(const struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+static bool is_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
 {
     if (entries->count == 0) {
         return true;
@@ -255,8 +255,15 @@ static bool is_due(const struct gm_entries *entries, const struct gm_track *trac
     const double last = entries->times[entries->count - 1];
     const double interval =
         (track->interval ? track->interval(view->parameters) : 0) * (double)entries->every;
-    return interval > 0 ? intervals(view, interval, view->t) != intervals(view, interval, last)
-                        : view->t != last;
+    if (!(interval > 0)) {
+        return view->t != last;
+    }
+    if (entries->counted != last || entries->interval != interval) {
+        entries->counted = last;
+        entries->interval = interval;
+        entries->intervals = intervals(view, interval, last);
+    }
+    return intervals(view, interval, view->t) != entries->intervals;
 }
 
 static void make_room(struct gm_entries *entries, const struct gm_track *track)

@@ -11,12 +11,14 @@
 
 struct gm_entries { /* the record of one track */
     size_t width, count;
-    size_t kept;     /* entries in memory; count is less while an earlier step is shown */
-    int64_t every;   /* intervals per entry; thinning doubles it */
-    double *times;   /* [count], model time */
-    int64_t *steps;  /* [count], number of steps */
-    double *values;  /* [count * width] */
-    int64_t skipped; /* crossings still to be left out, after thinning */
+    size_t kept;                /* entries in memory; count is less while an earlier step is shown */
+    int64_t every;              /* intervals per entry; thinning doubles it */
+    double *times;              /* [count], model time */
+    int64_t *steps;             /* [count], number of steps */
+    double *values;             /* [count * width] */
+    double interval, intervals; /* the number of whole intervals up to the last entry, and their length */
+    double counted;             /* the time of the entry of which that is known */
+    int64_t skipped;            /* crossings still to be left out, after thinning */
     /* values of the section after the last step, one per section; NAN: unknown */
     double *before;
     size_t sections;

@@ -77,7 +77,7 @@ const char *gm_scene_idle(const struct gm_scene *scene, const void *parameters, 
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
 {
     for (size_t i = 0; i < scene->parameter_count; i++) {
-        if (strcmp(scene->parameters[i].key, key) == 0) {
+        if (scene->parameters[i].key[0] == key[0] && strcmp(scene->parameters[i].key, key) == 0) {
             return &scene->parameters[i];
         }
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nanoseconds a point and step of the schemes for fields, beside a bare loop over libm's sin: no test, ratios
    to read. Every figure is the median of several runs.
-       bench_fields [SECTION...]: all of it, or what is named of waves, large, typed, boxes, burgers. */
+       bench_fields [SECTION...]: all of it, or what is named of waves, large, typed, boxes, burgers, fourier. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -225,6 +225,28 @@ static void typed(size_t points)
     }
 }
 
+/* The pseudo-spectral scheme at lengths of small factors and at primes, beside the first. */
+static void fourier(void)
+{
+    static const struct kdv_solution one_soliton = {
+        .initial = KDV_SOLITON, .kdv.eta = 1, .kdv.mu = 1, .velocity = 1};
+    static const size_t points[] = {1024, 1001, 1000, 10000, 10007, 100000, 100003};
+    double first = 0;
+    for (size_t i = 0; i < GM_COUNT(points); i++) {
+        struct gm_problem problem = gm_problem_kdv;
+        problem.parameters = &one_soliton;
+        problem.line = (struct gm_grid1){points[i], 100 / (double)points[i], -50, 0, false};
+        problem.n = gm_wave_size(points[i]);
+        double *y = calloc(problem.n, sizeof *y);
+        kdv_levels(&problem, 1e-6, y);
+        const double time = time_of(&problem, "fourier-rk4", 1e-6, (long)(1000000 / points[i]), y);
+        first = i == 0 ? time : first;
+        printf("kdv fourier-rk4, %6zu points: %.1f ns a point and step, %.2f times that of 1024\n", points[i],
+               time, time / first);
+        free(y);
+    }
+}
+
 static bool is_asked(const char *section, int argc, char **argv)
 {
     bool asked = argc < 2;
@@ -255,6 +277,9 @@ int main(int argc, char **argv)
     if (is_asked("burgers", argc, argv)) {
         burgers(801, 8000, sine);
         burgers(1000000, 8, sine);
+    }
+    if (is_asked("fourier", argc, argv)) {
+        fourier();
     }
     return 0;
 }

@@ -612,10 +612,13 @@ void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_
 size_t gm_modified_shown(const struct gm_scene *scene, const void *parameters)
 {
     const struct gm_parameter *show = gm_scene_parameter(scene, "show");
-    char text[GM_TEXT_SIZE];
-    const bool chosen =
-        show && strcmp(gm_parameter_format(show, parameters, text, sizeof text), GM_SHOW_MODIFIED) == 0;
-    return chosen ? GM_MODIFIED_OBSERVABLES : 0;
+    if (!show) {
+        return 0;
+    }
+    /* this is asked after every recorded step: the word is not copied */
+    const char *word = show->type == GM_TEXT ? (const char *)parameters + show->offset
+                                             : show->choices[(int)gm_parameter_get(show, parameters)];
+    return strcmp(word, GM_SHOW_MODIFIED) == 0 ? GM_MODIFIED_OBSERVABLES : 0;
 }
 
 bool gm_draw_modified(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
