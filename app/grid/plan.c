@@ -13,6 +13,7 @@
 #include "app/words/drive.h"
 #include "app/words/words.h"
 #include "core/arena.h"
+#include "core/functions/functions.h"
 
 struct gm_timing *gm_grid_timing(const struct gm_grid *grid)
 {
@@ -429,7 +430,7 @@ void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm
 
 static double on_scale(double value, bool logarithmic)
 {
-    return logarithmic ? log(value) : value;
+    return logarithmic ? gm_log(value) : value;
 }
 
 struct gm_axis gm_chart_edges(const char *label, const double *values, size_t count, bool logarithmic,
@@ -443,7 +444,7 @@ struct gm_axis gm_chart_edges(const char *label, const double *values, size_t co
         const double before = i > 0 ? on_scale(values[i - 1], logarithmic) : start - first;
         const double after = i < count ? on_scale(values[i], logarithmic) : end + last;
         const double edge = (before + after) / 2;
-        edges[i] = logarithmic ? exp(edge) : edge;
+        edges[i] = logarithmic ? gm_exp(edge) : edge;
     }
     return (struct gm_axis){.label = label,
                             .scale = logarithmic ? GM_LOG : GM_LINEAR,

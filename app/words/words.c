@@ -12,6 +12,7 @@
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/nearest.h"
+#include "core/functions/functions.h"
 #include "core/parameter.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -47,7 +48,7 @@ static double value_in(const struct gm_range *range, size_t index)
         return index == 0 ? range->first : range->last;
     }
     if (range->logarithmic) {
-        return to_15_digits(range->first * pow(range->last / range->first, at / last));
+        return to_15_digits(range->first * gm_pow(range->last / range->first, at / last));
     }
     const double value = (range->first * (last - at) + range->last * at) / last;
     const double shorter = to_15_digits(value);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* atan, atan2, asin and acos, all as the angle of a point (d, n), 0 <= n <= d:
        atan(n/d) = atan c + atan t,  t = (n - c d)/(d + c n),  c = i/32 next to n/d,  |t| <= 1/64
-   with a table of atan c, the series of atan t to t^9, and n, d and t as hi + lo. asin x is the angle of
-   (sqrt(1 - x^2), x). Gal & Bachelis, ACM TOMS 17 (1991) 26, for tables with a short series. Included for each
-   pass. */
+   with a table of atan c, the series of atan t to t^9, which ends 2^-63 of the value too early, and n, d and t as
+   hi + lo. asin x is the angle of (sqrt(1 - x^2), x), acos x that of (x, sqrt(1 - x^2)). The error of atan c + atan t
+   is 2^-60 of the value, so that of its rounded sum is 1/2 of a unit of the last place and .01. Gal & Bachelis, ACM
+   TOMS 17 (1991) 26, for tables with a short series. Included for each pass. */
 #ifdef GM_PASS_SCALAR
 /* atan(i/32) as hi and lo */
 static const double gm_angle_rows[33][2] = {

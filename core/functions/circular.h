@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sin, cos and tan, of  x = q pi/2 + r,  |r| <= pi/4:
-       |x| <= 2^15 pi/2: pi/2 in three parts, of which two times q are exact
-       beyond:           x 2/pi modulo 4 by whole numbers, with 192 bits of 2/pi
+/* sin, cos and tan, of  x = q pi/2 + r + y,  |r| <= pi/4,  y a rest below a unit of r:
+       |x| < pi/4        q = 0, r = x, y = 0
+       |x| <= 2^15 pi/2  pi/2 = P1 + P2 + P3 of 38, 38 and 53 bits: q P1, q P2 and x - q P1 are exact, the error of
+                         r + y is at most 2^-114; no double is nearer to a multiple of pi/2 than 2^-61
+       beyond            x 2/pi modulo 4 by whole numbers, with 192 bits of 2/pi; r + y has 62 bits
        sin(r + y) = r - (r^3 S(r^2) + r^2 y/2 - y),  cos(r + y) = 1 - r^2/2 + (r^4 C(r^2) - r y)
-   S and C are the polynomials of degree 5 with the least largest error (Remez's algorithm in 200 bits), 2^-57 of
-   the value. Cody & Waite, Software Manual for the Elementary Functions, 1980; Payne & Hanek, SIGNUM Newsl. 18
-   (1983) 19. Included for each pass; functions that share an argument share their operations. */
+   S and C are the polynomials of degree 5 with the least largest error (Remez's algorithm in 200 bits), 2^-57 of the
+   value. Errors in units of the last place: sin 1/2 for the last sum, and .29 since r^3 S <= .11 sin r has three
+   roundings; cos 1/2, and .29 since half of r^2, rounded, is a quarter unit. tan is a quotient of pairs: .87 measured.
+   Cody & Waite, Software Manual for the Elementary Functions, 1980; Payne & Hanek, SIGNUM Newsl. 18 (1983) 19; Muller,
+   Elementary Functions, 3rd ed. 2016, ch. 11. Included for each pass; functions that share an argument share their
+   operations. */
 #ifdef GM_PASS_SCALAR
 __extension__ typedef unsigned __int128 gm_wide_word;
 

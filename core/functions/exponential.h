@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* exp, of  x = k log(2)/32 + r:  e^x = 2^(k/32) (1 + r + ... + r^6/6!), with a table (Tang, ACM TOMS 15 (1989) 144);
-   expm1, sinh, cosh and tanh, of  x = k log 2 + r,  |r| <= log(2)/2:
+/* exp, of  x = k log(2)/32 + r,  |r| <= log(2)/64:  e^x = 2^(k/32) (1 + r + ... + r^6/6!)
+   with a table of 2^(k/32) as hi + lo; the series ends 2^-58 of the value too early. expm1, sinh, cosh and tanh, of
+   x = k log 2 + r,  |r| <= log(2)/2:
        e^x = 2^k (1 + r + r^2/2 + r^3 E(r)),        m = e^|x| - 1
        sinh = (m + m/(m + 1))/2,  cosh = (m + 1 + 1/(m + 1))/2,  tanh = m'/(m' + 2),  m' = e^2|x| - 1
-   with two parts of log 2 (Cody & Waite 1980) and hi + lo where parts cancel. E interpolates at the Chebyshev
-   points, of degree 9: the error is 2^-58 of e^x - 1. Included for each pass. */
+   with hi + lo where parts cancel. E interpolates at the Chebyshev points, of degree 9: the error is 2^-58 of e^x - 1.
+   log 2 has two parts, of which k times the first is exact. Errors in units of the last place: exp 1/2 for the last sum
+   and .03 for r (e^r - 1)/r, rounded; .75 below 2^-1022, after two roundings. expm1, whose r^2/2 is rounded, .9;
+   of it sinh and tanh have .75, cosh .6. Cody & Waite, Software Manual for the Elementary Functions, 1980; Tang, ACM
+   TOMS 15 (1989) 144 and 18 (1992) 211. Included for each pass. */
 #ifdef GM_PASS_SCALAR
 /* 2^(i/32) as hi and lo */
 static const double gm_exponential_rows[32][2] = {
@@ -65,9 +69,12 @@ GM_INLINE struct K(exponential) K(exponential)(real x)
 /* e^(x + lo) = 2^(k/32) e^r. Numbers below 2^-1022 are rounded by the last product alone. */
 GM_INLINE real K(exp_of)(real x, real lo)
 {
-    const mask above = x > 710, below = x < -746;
-    x = K(pick)(above, K(constant)(710), K(pick)(below, K(constant)(-746), x));
-    lo = K(pick)(K(either)(above, below), K(constant)(0), lo);
+    const bool common = K(everywhere)(K(magnitude)(x) < 700);
+    if (!common) {
+        const mask above = x > 710, below = x < -746;
+        x = K(pick)(above, K(constant)(710), K(pick)(below, K(constant)(-746), x));
+        lo = K(pick)(K(either)(above, below), K(constant)(0), lo);
+    }
     const real shifted = x * 0x1.71547652b82fep+5 + 0x1.8p52, k = shifted - 0x1.8p52;
     const real r = (x - k * 0x1.62e42ff000000p-6) - (k * -0x1.718432a1b0e26p-40 - lo), z = r * r;
     const pattern row_of = K(bits)(shifted) & 31;
@@ -81,11 +88,9 @@ GM_INLINE real K(exp_of)(real x, real lo)
                                        ((0x1.5555555555555p-3 + r * 0x1.5555555555555p-5) +
                                         z * (0x1.1111111111111p-7 + r * 0x1.6c16c16c16c17p-10));
     const real value = table_hi + (table_lo + table_hi * e);
-#ifdef GM_PASS_SCALAR
-    if (fabs(x) < 700) { /* what follows would find the same, later */
-        return number_scalar(bits_scalar(value) + ((bits_scalar(shifted) - row_of) << 47));
+    if (common) { /* what follows would find the same, later */
+        return K(number)(K(bits)(value) + ((K(bits)(shifted) - row_of) << 47));
     }
-#endif
     /* the power of two in two steps: alone it may overflow */
     const real power = (K(number)(K(bits)(shifted) - row_of) - 0x1.8p52) * 0x1p-5,
                half = (power * 0.5 + 0x1.8p52) - 0x1.8p52;

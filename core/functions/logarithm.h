@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* log, log1p, log10, log2 and pow, of  x = 2^k z,  z in [0.705, 1.41):
-       log x = k log 2 - log(1/c) + log(1 + r),  r = z (1/c) - 1,  |r| <= .0041
-   with 1/c of 11 bits for each 128th part, exactly 1 around z = 1, and r exact as hi + lo. Tang, ACM TOMS 16
-   (1990) 378; its table of logarithms was computed in 1500 bits. x^y = exp(y log x) with a relative error
-   of log x of 2^-65. Included for each pass. */
+       log x = k log 2 - log(1/c) + log(1 + r),  r = z (1/c) - 1,  |r| <= .0041,  log(1 + r) = r - r^2/2 + ... - r^8/8
+   with 1/c of 11 bits for each 128th part, exactly 1 around z = 1, and r exact as hi + lo. The series ends 2^-65 of
+   the value too early; log 2 and log c have two parts, of which sums of the first are exact. Errors in units of the
+   last place: log, log10, log2 1/2 for the last sum and .01 for r^2/2; log1p, whose 1 + x is hi + lo, .7.
+       x^y = exp(y log x),  y log x = hi + lo
+   with a relative error of log x of 2^-65, so of x^y of 2^-55: 1/2 and .1. Tang, ACM TOMS 16 (1990) 378; its table of
+   logarithms was computed in 1500 bits. Included for each pass. */
 #ifdef GM_PASS_SCALAR
 /* 1/c; -log(1/c), as a multiple of 2^-42, whose sum with a multiple of such a part of log 2 is exact; its rest */
 static const double gm_logarithm_rows[128][3] = {
@@ -138,8 +141,9 @@ static const double gm_logarithm_rows[128][3] = {
 };
 #endif
 
-/* log(x + x part) for x > 0, |part| below 2^-52 */
-GM_INLINE struct K(pair) K(logarithm)(real x, real part_of_x)
+/* log(x + x part) for x > 0, |part| below 2^-52, with a relative error of 2^-65, or if it need not be `exact` of
+   2^-61 */
+GM_INLINE struct K(pair) K(logarithm)(real x, real part_of_x, bool exact)
 {
     const mask tiny = x < 0x1p-1022;
     const real y = K(pick)(tiny, x * 0x1p54, x);
@@ -166,8 +170,12 @@ GM_INLINE struct K(pair) K(logarithm)(real x, real part_of_x)
                    rr * r.hi *
                    ((0x1.5555555555555p-2 - r.hi * 0.25) +
                     rr * ((0.2 - r.hi * 0x1.5555555555555p-3) + rr * (0x1.2492492492492p-3 - r.hi * 0.125)));
-    const struct K(pair) first = K(sum)(k * 0x1.62e42fefa38p-1 + table_hi, r.hi),
-                         second = K(sum)(first.hi, -0.5 * half * half);
+    const struct K(pair) first = K(sum)(k * 0x1.62e42fefa38p-1 + table_hi, r.hi);
+    if (!exact) {
+        return (struct K(pair)){first.hi, first.lo + ((k * 0x1.ef35793c7673p-45 + table_lo) +
+                                                      ((r.lo - r.lo * r.hi) - 0.5 * rr + series))};
+    }
+    const struct K(pair) second = K(sum)(first.hi, -0.5 * half * half);
     return K(sum)(second.hi, second.lo + (first.lo + ((k * 0x1.ef35793c7673p-45 + table_lo) +
                                                       ((r.lo - r.lo * r.hi) - rest + series))));
 }
@@ -175,20 +183,24 @@ GM_INLINE struct K(pair) K(logarithm)(real x, real part_of_x)
 /* the logarithm, with its values at 0, infinity, NaN and below 0 */
 GM_INLINE real K(of_any)(real x, real value)
 {
+    if (K(everywhere)(K(both)(x > 0, x <= 0x1.fffffffffffffp1023))) {
+        return value;
+    }
     value = K(pick)(x > 0, K(pick)(x > 0x1.fffffffffffffp1023, x, value), K(constant)(NAN));
     return K(pick)(x == 0, K(constant)(-INFINITY), value);
 }
 
 GM_FUNCTION_OF_PASS real K(log)(real x)
 {
-    const struct K(pair) log = K(logarithm)(x, K(constant)(0));
+    const struct K(pair) log = K(logarithm)(x, K(constant)(0), false);
     return K(of_any)(x, log.hi + log.lo);
 }
 
 /* log x / log b, with 1 / log b as hi + lo */
 GM_INLINE real K(logarithm_to)(real x, double hi, double lo)
 {
-    const struct K(pair) log = K(logarithm)(x, K(constant)(0)), p = K(product)(log.hi, K(constant)(hi));
+    const struct K(pair) log = K(logarithm)(x, K(constant)(0), false),
+                         p = K(product)(log.hi, K(constant)(hi));
     return K(of_any)(x, p.hi + (p.lo + (log.hi * lo + log.lo * hi)));
 }
 
@@ -204,7 +216,8 @@ GM_FUNCTION_OF_PASS real K(log2)(real x)
 
 GM_FUNCTION_OF_PASS real K(log1p)(real x)
 {
-    const struct K(pair) one = K(any_sum)(K(constant)(1), x), log = K(logarithm)(one.hi, one.lo / one.hi);
+    const struct K(pair) one = K(any_sum)(K(constant)(1), x),
+                         log = K(logarithm)(one.hi, one.lo / one.hi, false);
     return K(pick)(K(magnitude)(x) < 0x1p-54, x, K(of_any)(one.hi, log.hi + log.lo));
 }
 
@@ -231,7 +244,7 @@ static __attribute__((noinline, cold, unused)) real K(power_of_any)(real x, real
 
 GM_FUNCTION_OF_PASS real K(pow)(real x, real y)
 {
-    const struct K(pair) log = K(logarithm)(K(magnitude)(x), K(constant)(0)), p = K(product)(log.hi, y);
+    const struct K(pair) log = K(logarithm)(K(magnitude)(x), K(constant)(0), true), p = K(product)(log.hi, y);
     const real power = K(exp_of)(p.hi, p.lo + log.lo * y);
     const mask common =
         K(both)(K(both)(x > 0, x <= 0x1.fffffffffffffp1023), K(magnitude)(y) <= 0x1.fffffffffffffp1023);

@@ -139,6 +139,7 @@ static void errors_are_small(void **unused)
                 largest = error, at = x, and_at = y;
             }
         }
+        print_message("%-5s %.3f units at most\n", function->name, largest);
         if (!(largest <= function->most)) {
             fail_msg("%s: %.3f units at %a, %a", function->name, largest, at, and_at);
         }

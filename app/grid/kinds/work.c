@@ -12,6 +12,7 @@
 #include "core/arena.h"
 #include "core/basics.h"
 #include "core/expression/lines.h"
+#include "core/functions/functions.h"
 #include "core/schemes.h"
 #include "core/theory/certify.h"
 
@@ -125,7 +126,7 @@ static const struct gm_lane_spec *tolerant_specs(struct gm_grid *grid, size_t *c
     struct gm_lane_spec *specs = gm_arena_take(grid->arena, most, sizeof *specs);
     struct gm_grid_axis axis = {.values = gm_arena_take(grid->arena, most, sizeof *axis.values)};
     for (size_t i = 0; i < most; i++) {
-        gm_axis_add(&axis, typed ? request->lanes[i].settings.tolerance : pow(10, -3 - (double)i));
+        gm_axis_add(&axis, typed ? request->lanes[i].settings.tolerance : gm_pow(10, -3 - (double)i));
     }
     qsort(axis.values, axis.count, sizeof *axis.values, falling);
     for (size_t i = 0; i < axis.count; i++) {

@@ -40,7 +40,7 @@ static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_pr
 enum { NODES = 64 }; /* that are solved beside each other */
 
 /* Solves c + dt^2 Q(now + c, past) = right by Newton's method for at most NODES nodes, each until it settles, from
-   the guesses c; NaN where it does not. */
+   the guesses c; NaN if it does not. */
 static void solve_nodes(const struct gm_problem *problem, double square, const double *past,
                         const double *now, const double *right, double *c, size_t count,
                         unsigned long *iterations)
