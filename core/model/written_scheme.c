@@ -247,7 +247,8 @@ static void read_word(struct reading *reading, struct gm_span span)
     struct gm_span rest = {open + 1, close}, segment;
     int positional = 0;
     reading->scheme->kind = kind_of(text + span.begin, open - span.begin);
-    if (reading->scheme->kind == GM_WRITTEN_KINDS) {
+    const bool called = reading->scheme->kind == GM_WRITTEN_KINDS; /* by its name, which is the base */
+    if (called) {
         reading->scheme->kind = GM_WRITTEN_CALLED;
         take_line(reading, GM_SCHEME_WORD_BASE, span.begin, (struct gm_span){span.begin, open});
     }
@@ -261,11 +262,11 @@ static void read_word(struct reading *reading, struct gm_span span)
             gm_arena_need(reading->arena,
                           gm_line_find(&lines_of_schemes, text, &line, &word, reading->fault));
             take_line(reading, (enum gm_scheme_word)word, segment.begin, line.value);
-        } else if (positional < kinds[reading->scheme->kind].count) {
+        } else if (positional < (called ? 1 : kinds[reading->scheme->kind].count)) {
             take_line(reading, kinds[reading->scheme->kind].positional[positional++], segment.begin, segment);
         } else {
-            fail(reading, segment.begin, "there is more between the parentheses than %s has",
-                 kinds[reading->scheme->kind].name);
+            fail(reading, segment.begin, "there is more between the parentheses than %.*s has",
+                 (int)(open - span.begin), text + span.begin);
         }
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
@@ -288,7 +289,9 @@ static void check_lines(const struct reading *reading)
     for (int i = 0; i < kinds[scheme->kind].required; i++) {
         const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
         fail_if(reading, !scheme->lines[word].said, reading->span.begin,
-                "a scheme of the kind %s needs %s:", name, words[word].word);
+                i == 0 ? "a scheme of the kind %s needs %s:"
+                       : "a scheme of the kind %s needs %s:, after a semicolon",
+                name, words[word].word);
     }
 }
 
