@@ -23,8 +23,12 @@ bool gm_library_find(void *library, const char *names, void *pointers);
 /* Opens a library and fills the table of its functions, or ends the program, with one sentence and status 3, or 5 for lack of memory. */
 void gm_library_require(const char *file, const char *names, void *pointers);
 
-/* Defines `const struct tag *tag(void)`, which returns the table, filled at the first call, of the library's functions
-   in NAMES(F) F(one) F(two), as the `struct tag {NAMES(GM_LIBRARY_POINTER)}` before it says. */
+/* Declare and define `const struct tag *tag(void)`, which returns the table, filled at the first call, of the
+   library's functions in NAMES(F) F(one) F(two): tag()->one(...). */
+#define GM_LIBRARY_TABLE(tag, NAMES)                                                                         \
+    const struct tag {                                                                                       \
+        NAMES(GM_LIBRARY_POINTER)                                                                            \
+    } * tag(void)
 #define GM_LIBRARY(tag, file, NAMES)                                                                         \
     static struct tag table_of_##tag;                                                                        \
     static void fill_##tag(void)                                                                             \

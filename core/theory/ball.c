@@ -18,10 +18,7 @@
     F(mpfr_free_cache) F(mpfr_get_d) F(mpfr_log) F(mpfr_mul) F(mpfr_set_d) F(mpfr_set_si_2exp) F(mpfr_sin) \
     F(mpfr_snprintf) F(mpfr_sqrt) F(mpfr_strtofr) F(mpfr_sub)
 /* clang-format on */
-struct mpfr {
-    FUNCTIONS(GM_LIBRARY_POINTER)
-};
-static const struct mpfr *mpfr(void);
+static GM_LIBRARY_TABLE(mpfr, FUNCTIONS);
 GM_LIBRARY(mpfr, "libmpfr.so.6", FUNCTIONS)
 
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };

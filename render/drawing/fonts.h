@@ -19,9 +19,6 @@
     F(FcInitLoadConfigAndFonts) F(FcPatternAddBool) F(FcPatternAddInteger) F(FcPatternAddString) \
     F(FcPatternCreate) F(FcPatternDestroy) F(FcPatternGetString)
 /* clang-format on */
-struct gm_fonts {
-    GM_FONT_FUNCTIONS(GM_LIBRARY_POINTER)
-};
-const struct gm_fonts *gm_fonts(void);
+GM_LIBRARY_TABLE(gm_fonts, GM_FONT_FUNCTIONS);
 
 #endif

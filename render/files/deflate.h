@@ -13,9 +13,6 @@
     F(libdeflate_free_compressor) F(libdeflate_free_decompressor) F(libdeflate_set_memory_allocator) \
     F(libdeflate_zlib_compress) F(libdeflate_zlib_compress_bound) F(libdeflate_zlib_decompress)
 /* clang-format on */
-struct gm_deflate {
-    GM_DEFLATE_FUNCTIONS(GM_LIBRARY_POINTER)
-};
-const struct gm_deflate *gm_deflate(void);
+GM_LIBRARY_TABLE(gm_deflate, GM_DEFLATE_FUNCTIONS);
 
 #endif

@@ -27,10 +27,7 @@
     F(png_set_scale_16) F(png_set_strip_alpha) F(png_set_tRNS) F(png_set_text) F(png_set_user_limits) \
     F(png_sig_cmp) F(png_write_chunk) F(png_write_info)
 /* clang-format on */
-struct libpng {
-    PNG_FUNCTIONS(GM_LIBRARY_POINTER)
-};
-static const struct libpng *libpng(void);
+static GM_LIBRARY_TABLE(libpng, PNG_FUNCTIONS);
 GM_LIBRARY(libpng, "libpng16.so.16", PNG_FUNCTIONS)
 GM_LIBRARY(gm_deflate, "libdeflate.so.0", GM_DEFLATE_FUNCTIONS)
 

@@ -19,9 +19,6 @@
     F(reset_prog_mode) F(resizeterm) F(set_escdelay) F(setupterm) F(stdscr) F(tigetflag) F(tigetnum) \
     F(tigetstr) F(tiparm) F(wgetch) F(wrefresh)
 /* clang-format on */
-struct gm_curses {
-    GM_CURSES_NAMES(GM_LIBRARY_POINTER)
-};
-const struct gm_curses *gm_curses(void);
+GM_LIBRARY_TABLE(gm_curses, GM_CURSES_NAMES);
 
 #endif
