@@ -358,7 +358,7 @@ static const char *any_name(size_t number, const void *data)
     return ((const struct names *)data)->name[number];
 }
 
-/* Returns a formula of any names in LaTeX; dots for one that is no formula, or too long. */
+/* Returns a formula of any names in LaTeX; dots for a long one, or for what cannot be read. */
 static const char *latex_of(const struct report *report, const char *text)
 {
     struct names names = {.arena = report->arena};

@@ -303,8 +303,13 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_run *run = lane->run;
     const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
     text[0] = '\0';
-    if ((!solved || run->status == GM_STEP_COLLAPSE) &&
-        tell_part(lane, solved ? "was not found" : "failed", text, size)) {
+    const bool tangled = run->status == GM_MESH_CROSSING;
+    if ((!solved || tangled || run->status == GM_STEP_COLLAPSE) &&
+        tell_part(lane,
+                  tangled  ? "would have tangled the mesh"
+                  : solved ? "was not found"
+                           : "failed",
+                  text, size)) {
         return;
     }
     if (run->status == GM_NO_CONVERGENCE) {

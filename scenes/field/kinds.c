@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinds of fields by what their files say: waves in a potential, on a ring, between walls or on a moving mesh; rates; matrices. */
 #include <math.h>
+#include <stdio.h>
 
 #include "core/basics.h"
 #include "core/field/families/boxes/any_form.h"
@@ -194,6 +195,16 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
     return true;
 }
 
+/* Remark 3 of Tyranowski & Desbrun (2019), section 3.3. */
+static void mesh_failure(const struct gm_view *view, char *text, size_t size)
+{
+    const bool free = gm_scheme_mesh(view->scheme) == GM_MESH_FREE && !gm_mesh_of(view).cell;
+    snprintf(text, size, "%s",
+             free ? "slopes meet at a node that is free, and the mass matrix is singular there; a line cell: "
+                    "makes it regular"
+                  : "");
+}
+
 #define MESH_ROWS(views, about)                                                                              \
     GM_INTEGER_ROW(GM_FIELD_LANE, grid.points, "points", "", 1, 1e5, "nodes between the ends",               \
                    .logarithmic = true),                                                                     \
@@ -230,6 +241,7 @@ const struct gm_field_kind gm_field_moving_waves = {
     .moves = true,
     .no_walls = "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u",
     .schemes = strategies,
+    .failure = mesh_failure,
     .open = open_mesh,
     .closes = gm_user_mesh_rests,
     .draw = gm_field_draw_mesh,
