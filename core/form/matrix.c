@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/form/matrix.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,13 +70,17 @@ void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted)
 {
     struct gm_matrix *matrix = &rows->matrix;
     const int begin = matrix->start[rows->row];
-    for (int k = begin; sorted && k < rows->used; k++) {
+    bool jumps = false;
+    for (int k = begin + 1; sorted && k < rows->used; k++) {
+        jumps |= matrix->column[k] < matrix->column[k - 1];
+    }
+    for (int k = begin; jumps && k < rows->used; k++) {
         rows->scratch[matrix->column[k]] = matrix->value[k];
     }
-    if (sorted) {
+    if (jumps) {
         qsort(matrix->column + begin, (size_t)(rows->used - begin), sizeof(int), compare_columns);
     }
-    for (int k = begin; sorted && k < rows->used; k++) {
+    for (int k = begin; jumps && k < rows->used; k++) {
         matrix->value[k] = rows->scratch[matrix->column[k]];
     }
     matrix->start[++rows->row] = rows->used;
@@ -85,13 +90,6 @@ struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows)
 {
     gm_arena_drop(rows->arena, rows->scratch);
     return rows->matrix;
-}
-
-static int compare(const void *a, const void *b)
-{
-    const struct gm_matrix_entry *p = a, *q = b;
-    const int row = (p->row > q->row) - (p->row < q->row);
-    return row ? row : (p->column > q->column) - (p->column < q->column);
 }
 
 struct gm_matrix_entries gm_matrix_entries(struct gm_arena *arena, size_t most)
@@ -117,18 +115,28 @@ void gm_matrix_put_block(struct gm_matrix_entries *entries, const struct gm_matr
 
 struct gm_matrix gm_matrix_of(struct gm_matrix_entries *entries, size_t rows, size_t columns)
 {
-    struct gm_matrix_rows made = gm_matrix_begin(entries->arena, rows, columns, entries->count);
-    qsort(entries->list, entries->count, sizeof *entries->list, compare);
+    struct gm_arena *arena = entries->arena;
+    struct gm_matrix_rows made = gm_matrix_begin(arena, rows, columns, entries->count);
+    int *next = gm_arena_keep(arena, calloc(rows + 1, sizeof *next), free);
+    int *order = gm_arena_keep(arena, malloc((entries->count + 1) * sizeof *order), free);
     for (size_t i = 0; i < entries->count; i++) {
-        while (made.row < (size_t)entries->list[i].row) {
-            gm_matrix_end_row(&made, false);
+        next[entries->list[i].row + 1]++;
+    }
+    for (size_t i = 0; i < rows; i++) {
+        next[i + 1] += next[i];
+    }
+    for (size_t i = 0; i < entries->count; i++) { /* afterwards next[i] is the end of row i */
+        order[next[entries->list[i].row]++] = (int)i;
+    }
+    for (int k = 0; made.row < rows;) {
+        for (const int end = next[made.row]; k < end; k++) {
+            gm_matrix_add(&made, entries->list[order[k]].column, entries->list[order[k]].value);
         }
-        gm_matrix_add(&made, entries->list[i].column, entries->list[i].value);
+        gm_matrix_end_row(&made, true);
     }
-    while (made.row < rows) {
-        gm_matrix_end_row(&made, false);
-    }
-    gm_arena_drop(entries->arena, entries->list);
+    gm_arena_drop(arena, order);
+    gm_arena_drop(arena, next);
+    gm_arena_drop(arena, entries->list);
     return gm_matrix_end(&made);
 }
 
@@ -167,6 +175,34 @@ struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm
         gm_matrix_end_row(&rows, true);
     }
     return gm_matrix_end(&rows);
+}
+
+static double entry_of(const struct gm_matrix *a, int row, int column)
+{
+    int low = a->start[row], high = a->start[row + 1];
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        if (a->column[middle] < column) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < a->start[row + 1] && a->column[low] == column ? a->value[low] : 0;
+}
+
+bool gm_matrix_is_symmetric(const struct gm_matrix *a, const double *weight)
+{
+    double largest = 0, asymmetry = 0;
+    for (int i = 0; i < (int)a->rows; i++) {
+        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+            const int j = a->column[k];
+            const double here = weight[i] * a->value[k], there = weight[j] * entry_of(a, j, i);
+            largest = fmax(largest, fabs(here));
+            asymmetry = fmax(asymmetry, fabs(here - there));
+        }
+    }
+    return asymmetry <= 1e-12 * largest;
 }
 
 void gm_matrix_scale(struct gm_matrix *matrix, const double *scale)

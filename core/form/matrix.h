@@ -49,7 +49,7 @@ struct gm_matrix_rows {
 struct gm_matrix_rows gm_matrix_begin(struct gm_arena *arena, size_t rows, size_t columns, size_t most);
 /* Adds to an entry of the row; no column is below 0. */
 void gm_matrix_add(struct gm_matrix_rows *rows, int column, double value);
-/* Ends the row; columns that are not sorted keep the order in which they came. */
+/* Ends the row; columns that are not to be sorted keep the order in which they came. */
 void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted);
 /* The matrix after its last row. */
 struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows);
@@ -62,6 +62,8 @@ struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_ma
 /* p a + q b, of equal sizes; b may be NULL. */
 struct gm_matrix gm_matrix_sum(struct gm_arena *arena, double p, const struct gm_matrix *a, double q,
                                const struct gm_matrix *b);
+/* True if a square matrix is symmetric, but for round-off, after its rows have been multiplied by weights. */
+bool gm_matrix_is_symmetric(const struct gm_matrix *a, const double *weight);
 /* Multiplies row i by scale[i]. */
 void gm_matrix_scale(struct gm_matrix *matrix, const double *scale);
 /* The diagonal matrix of `count` numbers, each to this power, 1 or -1, times a factor. */

@@ -149,12 +149,20 @@ void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enu
         make_centres(space, arena);
         return;
     }
-    struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
-    for (size_t k = 0; k < 2 * complex->edges; k++) {
+    struct gm_matrix_entries entries =
+        gm_matrix_entries(arena, number == GM_MATRIX_MEAN2 ? 3 * complex->triangles : 2 * complex->edges);
+    for (size_t k = 0; k < 3 * complex->triangles && number == GM_MATRIX_MEAN2; k++) {
+        gm_matrix_put(&entries, k / 3, (size_t)complex->triangle[k], 1.0 / 3);
+    }
+    for (size_t k = 0; k < 2 * complex->edges && number != GM_MATRIX_MEAN2; k++) {
         const size_t e = k / 2, end = (size_t)complex->edge[k];
         const int side = complex->edge_triangle[k];
         const bool inside = side >= 0 && complex->edge_triangle[k ^ 1] >= 0;
-        if (number == GM_MATRIX_JUMP1 && upwind) {
+        if (number == GM_MATRIX_MEAN1) {
+            gm_matrix_put(&entries, e, end, 0.5);
+        } else if (number == GM_MATRIX_ACROSS && side >= 0) {
+            gm_matrix_put(&entries, e, (size_t)side, inside ? 0.5 : 1);
+        } else if (number == GM_MATRIX_JUMP1 && upwind) {
             gm_matrix_put(&entries, e, end, k % 2 ? 0.5 : -0.5);
         } else if (number == GM_MATRIX_JUMP2 && upwind && inside) {
             gm_matrix_put(&entries, e, (size_t)side, k % 2 ? 0.5 : -0.5);
@@ -164,10 +172,13 @@ void gm_form_space_need(struct gm_form_space *space, struct gm_arena *arena, enu
             gm_matrix_put(&entries, e, e, k % 2 ? -1 : 1);
         }
     }
-    const size_t cells = number == GM_MATRIX_HALVES ? complex->vertices : complex->edges,
-                 columns = number == GM_MATRIX_JUMP1   ? complex->vertices
-                           : number == GM_MATRIX_JUMP2 ? complex->triangles
-                                                       : complex->edges;
+    const size_t cells = number == GM_MATRIX_HALVES  ? complex->vertices
+                         : number == GM_MATRIX_MEAN2 ? complex->triangles
+                                                     : complex->edges,
+                 columns = number == GM_MATRIX_MEAN1 || number == GM_MATRIX_MEAN2 || number == GM_MATRIX_JUMP1
+                               ? complex->vertices
+                           : number == GM_MATRIX_ACROSS || number == GM_MATRIX_JUMP2 ? complex->triangles
+                                                                                     : complex->edges;
     space->matrix[number] = gm_matrix_of(&entries, cells, columns);
 }
 
@@ -177,27 +188,15 @@ static void make_derivatives(struct gm_form_space *space)
     struct gm_matrix *matrix = space->matrix;
     const size_t vertices = complex->vertices, edges = complex->edges, triangles = complex->triangles;
     struct gm_matrix_entries d0 = gm_matrix_entries(space->arena, 2 * edges),
-                             d1 = gm_matrix_entries(space->arena, 3 * triangles),
-                             ends = gm_matrix_entries(space->arena, 2 * edges),
-                             corners = gm_matrix_entries(space->arena, 3 * triangles),
-                             sides = gm_matrix_entries(space->arena, 2 * edges);
+                             d1 = gm_matrix_entries(space->arena, 3 * triangles);
     for (size_t k = 0; k < 2 * edges; k++) {
-        const int at = complex->edge_triangle[k], other = complex->edge_triangle[k ^ 1];
         gm_matrix_put(&d0, k / 2, (size_t)complex->edge[k], k % 2 ? 1 : -1);
-        gm_matrix_put(&ends, k / 2, (size_t)complex->edge[k], 0.5);
-        if (at >= 0) {
-            gm_matrix_put(&sides, k / 2, (size_t)at, other >= 0 ? 0.5 : 1);
-        }
     }
     for (size_t k = 0; k < 3 * triangles; k++) {
         gm_matrix_put(&d1, k / 3, (size_t)complex->triangle_edge[k], complex->triangle_sign[k]);
-        gm_matrix_put(&corners, k / 3, (size_t)complex->triangle[k], 1.0 / 3);
     }
     matrix[GM_MATRIX_D0] = gm_matrix_of(&d0, edges, vertices);
     matrix[GM_MATRIX_D1] = gm_matrix_of(&d1, triangles, edges);
-    matrix[GM_MATRIX_MEAN1] = gm_matrix_of(&ends, edges, vertices);
-    matrix[GM_MATRIX_MEAN2] = gm_matrix_of(&corners, triangles, vertices);
-    matrix[GM_MATRIX_ACROSS] = gm_matrix_of(&sides, edges, triangles);
     matrix[GM_MATRIX_DUAL_D0] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D1], 1);
     matrix[GM_MATRIX_DUAL_D1] = gm_matrix_transposed(space->arena, &matrix[GM_MATRIX_D0], -1);
 }

@@ -29,11 +29,11 @@ enum gm_form_matrix {
     GM_MATRIX_DUAL_STAR0,
     GM_MATRIX_DUAL_STAR1, /* -1/STAR1 if that is diagonal; else it is solved with */
     GM_MATRIX_DUAL_STAR2,
-    GM_MATRIX_LAPLACE,  /* of 0-forms, -D0' STAR1 D0 / STAR0: the same for all stars */
-    GM_MATRIX_MEAN1,    /* vertices to edges: the mean of both ends */
+    GM_MATRIX_LAPLACE, /* of 0-forms, -D0' STAR1 D0 / STAR0: the same for all stars */
+    GM_MATRIX_MEAN1, /* made by gm_form_space_need, as are all from here on: vertices to edges: the mean of both ends */
     GM_MATRIX_MEAN2,    /* vertices to triangles */
     GM_MATRIX_ACROSS,   /* triangles to edges: the mean of both sides */
-    GM_MATRIX_TRANSFER, /* made by gm_form_space_need, as are all from here on: a 1-form along dual edges */
+    GM_MATRIX_TRANSFER, /* a 1-form along dual edges */
     GM_MATRIX_JUMP1,    /* half of head - tail */
     GM_MATRIX_JUMP2,    /* triangles to edges: half of right - left. Both are 0 unless products are upwind */
     GM_MATRIX_OUT,      /* edges to edges: what flows out through edges of the boundary */

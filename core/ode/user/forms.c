@@ -21,12 +21,15 @@
 
 enum { MOST_FACTORS = 8 };
 
-/* The factors of stages, 1 - h a (x) J, for one h a. */
+/* The factors of stages, 1 - h a (x) J, for one h a: by Cholesky's method if the matrix is symmetric with cells as
+   weights, as that of diffusion is. */
 struct stage_factor {
     struct gm_arena *arena;                                  /* NULL: none */
     double scaled[2][GM_TABLEAU_STAGES * GM_TABLEAU_STAGES]; /* h a of both halves of the components */
     size_t count;
     struct gm_matrix matrix;
+    double *weight;               /* that its rows were multiplied by */
+    struct gm_cholesky *cholesky; /* NULL: `lu` */
     struct gm_lu *lu;
 };
 
@@ -78,9 +81,10 @@ struct own {
     size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
     struct gm_cholesky *factor; /* NULL: `lu` */
     struct gm_lu *lu;
-    double sign;                /* that the matrix was multiplied by, but for pinned rows */
-    double *weight;             /* areas of the cells of the unknowns, 0 where the degree is not 0 */
-    int *piece;                 /* of each number of the unknowns that constants of its piece solve for; -1 */
+    double sign;    /* that the matrix was multiplied by, but for pinned rows */
+    double *cell;   /* of each number of the state: the area of a 0-form's cell, over that of a 2-form, 1 */
+    double *weight; /* areas of the cells of the unknowns, 0 where the degree is not 0 */
+    int *piece;     /* of each number of the unknowns that constants of its piece solve for; -1 */
     double *defect, *remainder; /* of each form: what its equation cannot meet, and what is left of it */
     struct stage_factor factors[MOST_FACTORS];
     size_t next_factor;
@@ -422,15 +426,9 @@ static void factor(struct own *own)
 {
     struct gm_matrix *a = &own->matrix;
     const size_t n = own->size;
-    const struct gm_matrix back = gm_matrix_transposed(own->arena, a, -1),
-                           skew = gm_matrix_sum(own->arena, 1, a, 1, &back);
-    double largest = 0, asymmetry = 0, trace = 0, *signs = gm_arena_take(own->arena, n, sizeof *signs);
-    for (int k = 0; k < skew.start[n]; k++) {
-        asymmetry = fmax(asymmetry, fabs(skew.value[k]));
-    }
+    double trace = 0, *signs = gm_arena_take(own->arena, n, sizeof *signs);
     for (size_t i = 0; i < n; i++) {
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            largest = fmax(largest, fabs(a->value[k]));
             trace += a->column[k] == (int)i && !is_pinned(own, i) ? a->value[k] : 0;
         }
     }
@@ -439,7 +437,10 @@ static void factor(struct own *own)
         signs[i] = is_pinned(own, i) ? 1 : own->sign;
     }
     gm_matrix_scale(a, signs);
-    own->factor = asymmetry <= 1e-12 * largest ? gm_matrix_factor(own->arena, a) : NULL;
+    for (size_t i = 0; i < n; i++) {
+        signs[i] = 1;
+    }
+    own->factor = gm_matrix_is_symmetric(a, signs) ? gm_matrix_factor(own->arena, a) : NULL;
     if (own->factor && gm_cholesky_condition(own->factor) > 1e-13) {
         return;
     }
@@ -763,11 +764,23 @@ static void factor_stages(struct gm_arena *arena, void *data)
             }
         }
     }
-    factor->matrix = gm_matrix_of(&all, count * each, count * each);
-    factor->lu =
-        gm_lu_open(count * each, factor->matrix.start, factor->matrix.column, factor->matrix.value, NULL);
-    gm_arena_need(arena, factor->lu);
-    gm_arena_keep(arena, factor->lu, gm_lu_close);
+    struct gm_matrix *matrix = &factor->matrix;
+    *matrix = gm_matrix_of(&all, count * each, count * each);
+    factor->weight = gm_arena_take(arena, count * each, sizeof *factor->weight);
+    for (size_t i = 0; i < count * each; i++) {
+        factor->weight[i] = i % each < n ? own->cell[i % each] : 1;
+    }
+    if (gm_matrix_is_symmetric(matrix, factor->weight)) {
+        gm_matrix_scale(matrix, factor->weight);
+        factor->cholesky = gm_matrix_factor(arena, matrix);
+    } else {
+        factor->weight = NULL;
+    }
+    if (!factor->cholesky) {
+        factor->lu = gm_lu_open(count * each, matrix->start, matrix->column, matrix->value, NULL);
+        gm_arena_need(arena, factor->lu);
+        gm_arena_keep(arena, factor->lu, gm_lu_close);
+    }
 }
 
 /* The factors for these stages, new ones in the place of the oldest. NULL if the matrix is singular, or when out of
@@ -809,7 +822,15 @@ static bool correct(const struct gm_problem *problem, const struct gm_stages *st
     for (size_t j = 0; j < stages->count && right; j++) {
         memcpy(right + j * each, residual + j * n, n * sizeof *right);
     }
-    const bool solved = right && gm_lu_apply(factor->lu, right, right + size);
+    for (size_t i = 0; i < size && right && factor->weight; i++) {
+        right[i] *= factor->weight[i];
+    }
+    bool solved = right != NULL;
+    if (solved && factor->cholesky) {
+        gm_cholesky_solve(factor->cholesky, right, right + size);
+    } else {
+        solved = solved && gm_lu_apply(factor->lu, right, right + size);
+    }
     for (size_t j = 0; j < stages->count && solved; j++) {
         memcpy(residual + j * n, right + size + j * each, n * sizeof *right);
     }
@@ -1066,6 +1087,17 @@ static void make(struct gm_arena *arena, void *data)
     own->scratch = doubles(own, 3 * (complex->edges + 1));
     own->held = gm_arena_take(arena, own->n, sizeof *own->held);
     own->held_unknown = gm_arena_take(arena, own->unknowns + 1, sizeof *own->held_unknown);
+    own->cell = doubles(own, own->n);
+    for (size_t i = 0; i < own->n; i++) {
+        own->cell[i] = 1;
+    }
+    for (size_t k = 0; k < model->field_count; k++) {
+        const struct gm_form_type type = type_of(system, model->fields[k]);
+        const double *cell = cells_of(own, (type.degree == 2) != type.dual);
+        for (size_t j = 0; j < size_of(own, model->fields[k]) && type.degree != 1; j++) {
+            own->cell[own->offset[model->fields[k]] + j] = type.degree == 0 ? cell[j] : 1 / cell[j];
+        }
+    }
     make_closings(own);
     open_values(own, &own->rates, &model->rates, variables);
     open_values(own, &own->exacts, &model->exacts, variables);
