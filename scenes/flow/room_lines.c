@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/flow/flow.h"
+#include "core/memory.h"
 #include "core/model/scope.h"
 #include "core/schemes.h"
 #include "scenes/common/written.h"
@@ -107,8 +108,11 @@ static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct
 static void check_row(struct gm_user_room *user_room, const struct gm_parameter *row, size_t place)
 {
     struct gm_flows scratch;
-    gm_system_refuse_if(&user_room->room.system, gm_parameter_set(row, &scratch, row->standard) != GM_PARSED,
-                        place, "the usual value lies outside of the range, or is none of the words");
+    const unsigned long refusals = gm_memory_refusals();
+    const bool taken = gm_parameter_set(row, &scratch, row->standard) == GM_PARSED;
+    gm_arena_need(user_room->arena, gm_memory_refusals() == refusals);
+    gm_system_refuse_if(&user_room->room.system, !taken, place,
+                        "the usual value lies outside of the range, or is none of the words");
 }
 
 /* Adds choices that come before a place of the file. */
