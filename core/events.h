@@ -13,10 +13,11 @@ struct gm_event_part;
 
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
 struct gm_events {
-    size_t count, breaks;     /* the last of `count` are breaks, in runs that locate them */
-    const char *const *names; /* [count]; "": none; of breaks the text of g */
-    const bool *ends;         /* [count]: the event ends the run, and changes no state */
-    bool changes, ends_runs;  /* some event changes the state; some ends the run */
+    size_t count, breaks;        /* the last of `count` are breaks, in runs that locate them */
+    const char *const *names;    /* [count]; "": none */
+    const char *const *surfaces; /* [breaks], the text of g */
+    const bool *ends;            /* [count]: the event ends the run, and changes no state */
+    bool changes, ends_runs;     /* some event changes the state; some ends the run */
     /* Writes g of all events for `looks` looks: component c of the k-th is look[c * looks + k], g of event i
        values[i * looks + k]. NaN when out of memory. */
     void (*values)(const struct gm_problem *problem, const double *look, size_t looks, double *values);

@@ -400,7 +400,7 @@ static void pass_events(struct gm_run *run)
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
-        run->slides = step.slides;
+        run->slides = step.slides - (run->problem->events->count - run->problem->events->breaks);
         if (step.part) {
             run->t = run->t0 = step.reached;
             run->n = 0;

@@ -316,7 +316,7 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         tell_unsolved(run, text, size);
     } else if (run->status == GM_SLIDING) {
         snprintf(text, size, "the motion slides along %.120s = 0 from t = %.10g: both rates point at it",
-                 run->problem->events->names[run->slides], run->t);
+                 run->problem->events->surfaces[run->slides], run->t);
     } else if (run->status != GM_OK) {
         snprintf(text, size, sentences[run->status], run->t, run->limit);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether a motion needs an implicit scheme: the decay of its neighbours is far faster than it is. */
+/* Stiff motions need an implicit scheme: their neighbours decay far faster than they move. */
 #ifndef GM_CORE_ODE_INDICATORS_STIFFNESS_H
 #define GM_CORE_ODE_INDICATORS_STIFFNESS_H
 

@@ -218,10 +218,13 @@ static void open_breaks(struct gm_user_data *self, const char **names)
     const struct gm_formula *graph = &frozen->system.graph;
     const size_t first = self->model->event_count, inputs = self->model->system->n + 1;
     const struct gm_naming naming = gm_system_naming(&frozen->system);
+    const char **surfaces = gm_arena_take(self->arena, frozen->count, sizeof *surfaces);
+    self->events.surfaces = surfaces;
     for (size_t i = 0; i < frozen->count; i++) {
         const struct gm_user_event *event = &frozen->events[i];
         char *text = gm_formula_text(graph, frozen->surfaces[i], &naming);
-        names[first + i] = gm_arena_print(self->arena, "%.120s", text ? text : "a long term");
+        names[first + i] = "";
+        surfaces[i] = gm_arena_print(self->arena, "%.120s", text ? text : "a long term");
         free(text);
         self->event_slopes[first + i] =
             (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, self->values, NULL};
