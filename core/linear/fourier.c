@@ -4,7 +4,7 @@
    transforms of the length r, a turn by w^(b p), and r transforms of the length m, which are passed on side by
    side: the pass on s of them reads x_(q + s (p + m a)) and writes to q + s (b + r p), so that the result is in
    order (Stockham). T.G. Stockham, AFIPS Conf. Proc. 28 (1966) 229; C. Van Loan, Computational Frameworks for
-   the Fast Fourier Transform, SIAM 1992, 1.7. Factors: 4, 2, and odd ones, in pairs a and r - a.
+   the Fast Fourier Transform, SIAM 1992, 1.7. Factors: 8, 4, 2, and odd ones, in pairs a and r - a.
    Where a prime factor is large, by the chirp z transform: with jk = (j^2 + k^2 - (k - j)^2)/2,
        X_k = v_k sum_j (x_j v_j) conj(v_(k-j)),  v_j = exp(-i pi j^2 / n),
    a convolution, which two transforms of another length make. L.I. Bluestein, IEEE Trans. Audio Electroacoust.
@@ -34,7 +34,7 @@ struct split {
 
 struct pass {
     size_t radix, m, s;
-    struct split turns;  /* w^(b p), [b - 1][p], radix - 1 times m */
+    struct split turns;  /* w^(b p), [b - 1][p], or [b - 1][q + s p] where along_p */
     struct split circle; /* exp(-2 pi i a / radix) */
     bool along_p;
     void (*apply)(const struct pass *pass, struct split x, struct split y);
