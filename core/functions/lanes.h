@@ -24,7 +24,7 @@ enum { GM_WIDTH = 2 };
 typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
 typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
 typedef uint64_t gm_lanes_pattern __attribute__((vector_size(GM_WIDTH * 8)));
-typedef double gm_four __attribute__((vector_size(32)));
+typedef long long gm_lanes_signs __attribute__((vector_size(GM_WIDTH * 8))); /* a name that builtins take */
 /* Lanes in the state, aligned like doubles. One instruction moves them: memcpy makes two halves of them, for
    which the register then has to wait. */
 typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
@@ -123,6 +123,10 @@ GM_INLINE bool K(somewhere)(bool which)
 {
     return which;
 }
+GM_INLINE unsigned K(holding)(bool which, int lanes)
+{
+    return (void)lanes, which;
+}
 GM_INLINE bool K(all)(void)
 {
     return true;
@@ -200,10 +204,8 @@ GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 /* The signs of lanes, one bit each: compilers take lanes out one by one for such a question. */
 GM_INLINE int K(signs)(gm_lanes_mask which)
 {
-#if defined(__AVX512F__)
-    const gm_four halves = (gm_four)__builtin_shufflevector(which, which, 0, 1, 2, 3),
-                  others = (gm_four)__builtin_shufflevector(which, which, 4, 5, 6, 7);
-    return __builtin_ia32_movmskpd256(halves) | __builtin_ia32_movmskpd256(others) << 4;
+#if defined(__AVX512DQ__)
+    return (unsigned char)__builtin_ia32_cvtq2mask512((gm_lanes_signs)which);
 #elif defined(__AVX2__)
     return __builtin_ia32_movmskpd256((gm_lanes)which);
 #elif defined(__SSE2__)
@@ -275,6 +277,11 @@ GM_INLINE bool K(everywhere)(gm_lanes_mask which)
 GM_INLINE bool K(somewhere)(gm_lanes_mask which)
 {
     return K(signs)(which) != 0;
+}
+/* the number of lanes, of the first `lanes`, where it holds */
+GM_INLINE unsigned K(holding)(gm_lanes_mask which, int lanes)
+{
+    return (unsigned)__builtin_popcount((unsigned)K(signs)(which) & ((1U << lanes) - 1));
 }
 GM_INLINE gm_lanes_mask K(all)(void)
 {

@@ -92,10 +92,9 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_tableau *row, int stages,
         if (iteration == 0) {
             negligible = 8.673617379884035e-19 * change;
         }
-        for (int l = 0; l < counts->lanes; l++) {
-            counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
-            counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
-        }
+        const unsigned iterating = K(holding)(active, counts->lanes);
+        counts->evaluations += (unsigned long)stages * iterating;
+        counts->iterations += iterating;
         real norm = K(constant)(0);
         for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
             norm = K(add_magnitudes)(norm, K(take)(&y[c]));
