@@ -459,7 +459,7 @@ void gm_explorer_check_typed(struct gm_explorer *explorer)
     }
     const bool scheme = prompt->kind == GM_TYPED_SWITCH || prompt->kind == GM_TYPED_FORK;
     char *scene = scheme ? gm_studies_words(explorer->open.shot) : NULL, *line = NULL;
-    if (asprintf(&line, "%s%s%s", scene ? scene : "", scheme ? "\n" : "", prompt->line.text) > 0) {
+    if (asprintf(&line, "%s%s%s", scene ? scene : "", scheme ? "\n" : "", prompt->line.text) >= 0) {
         prompt->checked =
             knows_fault(&explorer->check, readers[prompt->kind], line, explorer->wake, &prompt->fault);
         free(line);
