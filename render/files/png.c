@@ -422,8 +422,8 @@ static bool read_texts(const char *path, struct search *search, char *message)
     size_t size = 0;
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
     const bool found = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
-                      libpng()->png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
-                      find_texts(file, size - SIGNATURE, search, reason);
+                       libpng()->png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
+                       find_texts(file, size - SIGNATURE, search, reason);
     if (file) {
         fclose(file);
     }

@@ -487,7 +487,7 @@ static void forget_unnamed(void *data)
     free(unnamed);
 }
 
-/* Those of the lane, for its values of parameters; NULL when out of memory. */
+/* The unnamed invariants of the lane, for its values of parameters; NULL when out of memory. */
 static const struct unnamed *unnamed_of(const struct gm_view *view)
 {
     struct gm_worked *worked = &view->worked[GM_WORKED_FOUND];
