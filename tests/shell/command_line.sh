@@ -308,7 +308,7 @@ warns()
 warns 'energy_error is 9.87e+12' kepler scheme=verlet eccentricity=0.9999 steps=30
 warns 'energy_error is' stiff system=spring-pendulum scheme=tao4 steps=1
 warns 'energy_error is' kepler scheme=lobatto4 dt=10 steps=300
-warns 'own_energy_error is' sine-gordon scheme=midpoint-box
+warns '_error is' sine-gordon scheme=midpoint-box
 # at the stages of the boxes the energy is kept however long the step; at the nodes its error would be 237
 status 0 run wave scheme=gauss-box3 dt=100 steps=10 --json --strict
 grep -q '"warning":"".*"energy_error":[0-9.]*e-1[0-9]' out || fail "wave by gauss-box3: $(cat out)"
