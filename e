@@ -1,1 +1,0 @@
-geomint: scene wall has no parameter "breaks"; see geomint list ./wall.system
