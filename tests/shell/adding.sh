@@ -5,7 +5,7 @@ set -eu
 source=$1
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-(cd "$source" && tar cf - README.md LICENSE meson.build meson_options.txt app core docs library python render scenes share tests) |
+(cd "$source" && tar cf - README.md LICENSE meson.build meson_options.txt app core docs library loader python render scenes share tests) |
     tar xf - -C "$copy"
 cd "$copy"
 
