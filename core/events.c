@@ -137,12 +137,11 @@ static double sign_of_rate(const struct gm_event_step *step, size_t event, const
     return step->dt < 0 ? -sign : sign;
 }
 
-static void wait_with(const struct gm_event_step *step, size_t event, const double *look, double sign)
+static void wait_with(const struct gm_event_step *step, size_t event, double sign)
 {
-    const struct gm_problem *problem = step->problem;
     step->memory[event] = sign;
-    if (event >= first_break(problem)) {
-        step->memory[counts_at(problem) + event] = problem->events->mode(problem, event, look, sign);
+    if (event >= first_break(step->problem)) {
+        step->memory[counts_at(step->problem) + event] = sign;
     }
 }
 
@@ -152,15 +151,15 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
                        double nothing)
 {
     if (fabs(value) > nothing) {
-        wait_with(step, event, look, sign_of(value));
+        wait_with(step, event, sign_of(value));
     } else if (event < first_break(step->problem)) {
         step->memory[event] = sign_of_rate(step, event, look);
     } else {
-        wait_with(step, event, look, 1);
+        wait_with(step, event, 1);
         const double above = sign_of_rate(step, event, look);
-        wait_with(step, event, look, -1);
+        wait_with(step, event, -1);
         const double below = sign_of_rate(step, event, look);
-        wait_with(step, event, look, above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0);
+        wait_with(step, event, above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0);
     }
 }
 
@@ -266,8 +265,7 @@ static bool take_sides(struct rest *rest)
     bool taken = false;
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
         if (step->memory[i] == 0 && sign_of(rest->at_end[i]) != 0) {
-            look_at(step->problem, end, step->end, rest->look);
-            wait_with(step, i, rest->look, sign_of(rest->at_end[i]));
+            wait_with(step, i, sign_of(rest->at_end[i]));
             taken = true;
         }
     }
@@ -347,7 +345,7 @@ static void change(struct rest *rest, double t, size_t event)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        wait_with(step, event, rest->before, -step->memory[event]);
+        wait_with(step, event, -step->memory[event]);
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);

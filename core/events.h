@@ -35,9 +35,7 @@ struct gm_events {
     bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
     /* The same for all tangents that the state y after an event holds. */
     void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
-    /* Breaks. The value with which a switch is frozen where its g has a sign; its mode. */
-    double (*mode)(const struct gm_problem *problem, size_t event, const double *look, double sign);
-    /* Returns the problem with switches of these modes, one per break. It and the one that was returned before stay
+    /* Returns the problem whose breaks are frozen with these signs of g, their modes, one per break. It and the one that was returned before stay
        valid until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);

@@ -536,7 +536,7 @@ static const char *part_equations(const struct report *report, const char *part)
         }
         free(rate);
     }
-    return strlen(text) < most ? text[0] ? text : " which is 0 here"
+    return strlen(text) < most ? text[0] ? text : " it is 0 here"
                                : gm_arena_print(report->arena, "%.*s ...", (int)most, text);
 }
 

@@ -256,6 +256,17 @@ static bool begins_rate(const char *rates, size_t at)
     return begin <= at;
 }
 
+/* Returns true for the words between conditions, as in if(x > 0 and not y > 1, a, b). */
+static bool joins_conditions(const char *text, size_t length)
+{
+    static const char *const words[] = {"and", "or", "not"};
+    bool found = false;
+    for (size_t i = 0; i < GM_COUNT(words); i++) {
+        found = found || (strlen(words[i]) == length && memcmp(text, words[i], length) == 0);
+    }
+    return found;
+}
+
 /* Moves to the next name; {0} is before the first. Returns false behind the last. */
 static bool next_use(const struct typing *typing, struct use *use)
 {
@@ -278,7 +289,7 @@ static bool next_use(const struct typing *typing, struct use *use)
             const char behind = text[length + strspn(text + length, " \t")];
             const bool rate = key == FORMULA_RATE && begins_rate(value, (size_t)(text - value)),
                        of_part = key == FORMULA_PART && behind == ';'; /* part='A; x = v' */
-            if (of_part) {
+            if (of_part || joins_conditions(text, length)) {
                 continue;
             }
             if (rate || (behind != '(' && !gm_formula_reserves(text, length))) { /* but for functions */

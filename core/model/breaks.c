@@ -2,9 +2,7 @@
 /* A switch at g, of sign s, is frozen with
        sign(x) = s    abs(x) = s x    heaviside(x) = 1 - [s < 0]    [a < b] = [s < 0], g = a - b
        min(a, b) = [a < b] a + (1 - [a < b]) b
-   and one at the whole numbers, with k the one below x, by
-       floor(x) = k    ceil(x) = k + 1    mod(a, b) = mod(a, b) + b (floor(a/b) - k), x = a/b
-   which are the same bits where g has that sign and x that whole number. */
+   which are the same bits where g has that sign. */
 #include "core/model/breaks.h"
 
 #include <stdio.h>
@@ -28,7 +26,8 @@ const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_syst
     return found;
 }
 
-/* The number of operations in the rates that are not smooth. */
+/* The number of operations in the rates that are not smooth; floor, ceil and mod jump more than once, and g with them,
+   and count as too many. */
 static size_t count_switches(const struct gm_user_system *system)
 {
     const size_t mark = gm_arena_mark(system->arena);
@@ -37,7 +36,10 @@ static size_t count_switches(const struct gm_user_system *system)
     const gm_node_id *parts = gm_arena_keep(
         system->arena, gm_formula_parts_of(&system->graph, system->rates, system->n, &count), free);
     for (size_t k = 0; k < count; k++) {
-        found += switches[parts[k]];
+        const enum gm_operation operation = system->graph.nodes[parts[k]].operation;
+        const bool jumps_often = operation == GM_OPERATION_FLOOR || operation == GM_OPERATION_CEIL ||
+                                 operation == GM_OPERATION_MOD;
+        found += !switches[parts[k]] ? 0 : jumps_often ? GM_MOST_BREAKS + 1 : 1;
     }
     gm_arena_release(system->arena, mark);
     return found;
@@ -74,7 +76,7 @@ static gm_node_id applied(struct gm_formula *graph, enum gm_operation operation,
 }
 
 /* The variable that freezes a switch, new if it is not known; GM_NO_NODE: it is not frozen. */
-static gm_node_id frozen_at(struct gm_freezing *freezing, gm_node_id surface, gm_node_id whole)
+static gm_node_id frozen_at(struct gm_freezing *freezing, gm_node_id surface)
 {
     struct gm_formula *graph = &freezing->system->graph;
     for (size_t i = 0; i < freezing->count; i++) {
@@ -87,7 +89,7 @@ static gm_node_id frozen_at(struct gm_freezing *freezing, gm_node_id surface, gm
         return GM_NO_NODE;
     }
     struct gm_break *new = &freezing->list[freezing->count++];
-    *new = (struct gm_break){surface, whole, freezing->system->variable_count++};
+    *new = (struct gm_break){surface, freezing->system->variable_count++};
     return gm_formula_variable(graph, new->variable);
 }
 
@@ -99,8 +101,7 @@ static gm_node_id frozen_below(struct gm_freezing *freezing, gm_node_id a, gm_no
     const bool turned = a == zero || (b != zero && b < a);
     const gm_node_id low = turned ? b : a, high = turned ? a : b,
                      sign = frozen_at(freezing,
-                                      high == zero ? low : applied(graph, GM_OPERATION_SUBTRACT, low, high),
-                                      GM_NO_NODE);
+                                      high == zero ? low : applied(graph, GM_OPERATION_SUBTRACT, low, high));
     return sign == GM_NO_NODE
                ? sign
                : applied(graph, GM_OPERATION_BELOW, turned ? zero : sign, turned ? sign : zero);
@@ -114,15 +115,6 @@ static gm_node_id chosen(struct gm_formula *graph, gm_node_id c, gm_node_id a, g
                    applied(graph, GM_OPERATION_CHOSEN, other, b));
 }
 
-/* The whole number below x. */
-static gm_node_id frozen_whole(struct gm_freezing *freezing, gm_node_id x)
-{
-    struct gm_formula *graph = &freezing->system->graph;
-    const gm_node_id pi = gm_formula_constant(graph, 3.14159265358979323846);
-    return frozen_at(freezing,
-                     applied(graph, GM_OPERATION_SIN, applied(graph, GM_OPERATION_MULTIPLY, pi, x), 0), x);
-}
-
 /* gm_rewriter */
 static gm_node_id frozen(struct gm_formula *graph, gm_node_id node, gm_node_id a, gm_node_id b,
                          const void *data)
@@ -133,12 +125,12 @@ static gm_node_id frozen(struct gm_formula *graph, gm_node_id node, gm_node_id a
         (node < freezing->node_count && !freezing->varying[node])) {
         return GM_NO_NODE;
     }
-    const gm_node_id one = gm_formula_constant(graph, 1), other = gm_second_operand(&here);
-    gm_node_id held = GM_NO_NODE, whole;
+    const gm_node_id one = gm_formula_constant(graph, 1);
+    gm_node_id held = GM_NO_NODE;
     switch (here.operation) {
     case GM_OPERATION_SIGN:
     case GM_OPERATION_ABS:
-        held = frozen_at(freezing, here.a, GM_NO_NODE);
+        held = frozen_at(freezing, here.a);
         return held == GM_NO_NODE || here.operation == GM_OPERATION_SIGN
                    ? held
                    : applied(graph, GM_OPERATION_MULTIPLY, held, a);
@@ -153,22 +145,8 @@ static gm_node_id frozen(struct gm_formula *graph, gm_node_id node, gm_node_id a
     case GM_OPERATION_MAX:
         held = frozen_below(freezing, here.b, here.a);
         return held == GM_NO_NODE ? held : chosen(graph, held, a, b);
-    case GM_OPERATION_MOD:
-        held = frozen_whole(freezing, applied(graph, GM_OPERATION_DIVIDE, here.a, other));
-        if (held != GM_NO_NODE) {
-            const gm_node_id rest = applied(graph, GM_OPERATION_MOD, a, b);
-            whole = applied(graph, GM_OPERATION_DIVIDE, applied(graph, GM_OPERATION_SUBTRACT, a, rest), b);
-            whole = applied(graph, GM_OPERATION_ADD, whole, gm_formula_constant(graph, 0.5));
-            whole = applied(graph, GM_OPERATION_FLOOR, whole, 0);
-            whole = applied(graph, GM_OPERATION_SUBTRACT, whole, held);
-            held = applied(graph, GM_OPERATION_ADD, rest, applied(graph, GM_OPERATION_MULTIPLY, b, whole));
-        }
-        return held;
-    default: /* floor and ceil */
-        held = frozen_whole(freezing, here.a);
-        return held == GM_NO_NODE || here.operation == GM_OPERATION_FLOOR
-                   ? held
-                   : applied(graph, GM_OPERATION_ADD, held, one);
+    default: /* floor, ceil and mod in formulas that are not rates */
+        return GM_NO_NODE;
     }
 }
 

@@ -8,15 +8,14 @@
 
 enum { GM_MOST_BREAKS = 64 };
 
-/* A switch, frozen by the value of a variable: the sign of g, -1, 0 or 1; or of floor, ceil and mod the whole number
-   below x, where g = sin(pi x). */
+/* A switch, frozen by the value of a variable: the sign of g, -1, 0 or 1. */
 struct gm_break {
-    gm_node_id surface, whole; /* g; x, GM_NO_NODE for a sign */
+    gm_node_id surface; /* g */
     size_t variable;
 };
 
 /* Adds the key to a system with switches that can be located: it has coordinates, or components with rates, no
-   constraint, and at most GM_MOST_BREAKS switches. */
+   constraint, and at most GM_MOST_BREAKS switches, without floor, ceil and mod. */
 void gm_breaks_declare(struct gm_user_system *system);
 /* Returns a flag for each node that is not smooth in the state or the time, in the arena. */
 const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_system *system);

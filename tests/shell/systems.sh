@@ -827,7 +827,7 @@ refused 1 'a field' run ./sea.system
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + if(q > 0, 4, 1)*q^2/2\nstart: q = 0, p = 1\ndt: 0.1\nuntil: 20\n' >springs.system
 printf 'rate: x = -x + sign(sin(t))\nstart: x = 0\ndt: 0.1\nuntil: 10\n' >relay.system
-printf 'rate: x = 1, y = floor(x) + mod(2*x, 1) + ceil(x) + max(x, 2*x - 1.3) + heaviside(x - 1.7)\nstart: x = 0.2, y = 0\ndt: 0.1\nuntil: 3.05\n' >steps.system
+printf 'rate: x = 1, y = max(x, 2*x - 1.3) + heaviside(x - 1.7)\nstart: x = 0.2, y = 0\ndt: 0.1\nuntil: 3.05\n' >steps.system
 printf 'parameter: z = 0.05\nrate: x = v, v = -x - 2*z*v + 0.2*sign(v)\nstart: x = 0, v = 2.5\ndt: 0.1\nuntil: 60\n' >motor.system
 printf 'parameter: F = 0\nrate: x = v, v = F - x - 0.3*sign(v)\nstart: x = 1, v = 0\ndt: 0.1\nuntil: 20\n' >friction.system
 python3 - "$geomint" <<'END' || fail 'located breaks'
@@ -848,10 +848,10 @@ for scheme, order in ("rk4", 4), ("gauss4", 4), ("verlet", 2):
     assert abs(math.log2(coarse / fine) - order) < 0.2, (scheme, coarse, fine)
 assert error("relay.system", (0.07859308485389671, 10), "scheme=gauss8") < 1e-13
 # rates that are linear between breaks: the midpoint rule for each piece
-places, sum = (0.2, 0.5, 1, 1.3, 1.5, 1.7, 2, 2.5, 3, 3.25), 0
+places, sum = (0.2, 1.3, 1.7, 3.25), 0
 for a, b in zip(places, places[1:]):
     x = (a + b) / 2
-    sum += (b - a) * (math.floor(x) + 2*x % 1 + math.ceil(x) + max(x, 2*x - 1.3) + (x > 1.7))
+    sum += (b - a) * (max(x, 2*x - 1.3) + (x > 1.7))
 assert error("steps.system", (3.25, sum), "scheme=rk4") < 1e-13
 # half a turn takes x to c + (x - c) exp(-pi z / w) of the other sign; without the jump of the rates in the tangent map
 # both multipliers are this
@@ -880,7 +880,7 @@ grep -q 'H conserves energy  *not decided' out || fail "avf2 across corners: $(c
     fail "order across jumps: $(cat out)"
 "$geomint" list springs.system --long | grep -q 'smooth .*breaks are located' || fail 'breaks in the list'
 # a switch that is never met changes no bit
-printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8) + mod(q + 2, 100)/3\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8)\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system
 for scheme in verlet-position rk4 gauss4 midpoint avf2 radau5 tao2; do
     for breaks in located ignored; do
         "$geomint" run far.system scheme=$scheme breaks=$breaks --json --state | grep -o '"state".*' >$breaks.state
@@ -891,6 +891,12 @@ done
 printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2\nstart: a = 1, b = 0, c = 0\nuntil: 40\n' >robertson.system
 "$geomint" list robertson.system --long | grep -q 'stiff *yes rates 0.038 to 2.2e+03' || fail 'the rates of a stiff system'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
+status 0 run system 'rate=x = 1, z = if(x > 0 and not x > 1 or x > 5, 2, 0)' x=-1 z=0 dt=0.1 until=3 scheme=rk4
+# a wave of floor or mod jumps more than once, and is not located; a relay at rest has no end to its steps
+"$geomint" run system 'rate=z = if(mod(t, 1) < 0.5, 1, -1)' z=0 dt=0.1 until=3.25 scheme=rk4 >out || fail "a wave: $(cat out)"
+"$geomint" list system 'rate=z = floor(t)' z=0 --long | grep -q 'breaks are not located' || fail 'breaks of floor'
+status 2 run system 'rate=x = -sign(x)' x=0.35 dt=0.1 until=1 scheme=rk4
+grep -q 'slides along x = 0 from t = 0.35' out || fail "a relay: $(cat out)"
 refused 1 'no parameter "breaks"' run ./wall.system breaks=located
 # a quotient that is infinite on the way to a finite rate
 # rates and brackets stand in one line or in several

@@ -14,6 +14,8 @@
 
 /* default tolerance of the multistep methods */
 #define STANDARD_TOLERANCE 1e-8
+/* of a driver within dt: where a motion slides along a jump of its rates there is no end to them */
+enum { MOST_STEPS = 100000 };
 
 struct workspace {
     const struct gm_problem *problem;
@@ -82,6 +84,7 @@ static bool make_drivers(void *data)
         if (!workspace->drivers[i]) {
             return false;
         }
+        gsl_odeiv2_driver_set_nmax(workspace->drivers[i], MOST_STEPS);
     }
     return true;
 }

@@ -28,8 +28,7 @@ enum gm_user_formula {
     GM_USER_ONE_FORM,
     GM_USER_SURFACES, /* of components and the time: where events happen, and what is conserved between them */
     GM_USER_BOOKED,
-    GM_USER_BREAKS, /* g of each break; x of those at whole numbers, else g */
-    GM_USER_WHOLES,
+    GM_USER_BREAKS, /* g of each break */
     GM_USER_FORMULAS
 };
 

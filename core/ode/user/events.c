@@ -194,21 +194,6 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
     }
 }
 
-/* The sign; or the whole number below x whose parity has that sign of sin(pi x), also close to a jump. */
-static double mode(const struct gm_problem *problem, size_t event, const double *look, double sign)
-{
-    const struct gm_user_frozen *frozen = gm_user_data_of(problem)->model->frozen;
-    double values[GM_MOST_BREAKS];
-    const size_t i = event - gm_user_data_of(problem)->model->event_count;
-    if (frozen->list[i].whole == GM_NO_NODE) {
-        return sign;
-    }
-    gm_user_values(problem, GM_USER_WHOLES, look, values, 1);
-    const double x = values[i], below = floor(x);
-    const bool even = fmod(below, 2) == 0;
-    return sign == 0 || even == (sign > 0) ? below : x - below < 0.5 ? below - 1 : below + 1;
-}
-
 /* ---- opening ---- */
 
 /* Names the tapes of located breaks; `text` is that of g = 0, for sentences. */
@@ -232,10 +217,7 @@ static void open_breaks(struct gm_user_data *self, const char **names)
     }
     self->tapes[GM_USER_BREAKS] =
         (struct gm_late_tape){graph, frozen->surfaces, frozen->count, inputs, self->values, NULL};
-    self->tapes[GM_USER_WHOLES] = (struct gm_late_tape){
-        graph, frozen->surfaces + frozen->count, frozen->count, inputs, self->values, NULL};
     gm_arena_keep(self->arena, &self->tapes[GM_USER_BREAKS], gm_late_tape_close);
-    gm_arena_keep(self->arena, &self->tapes[GM_USER_WHOLES], gm_late_tape_close);
 }
 
 void gm_user_events_open(struct gm_problem *problem)
@@ -264,7 +246,6 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .rate = rate,
                                       .carry = carry,
                                       .carry_within = carry_within,
-                                      .mode = mode,
                                       .conserved = conserved};
     if (breaks > 0) {
         open_breaks(self, names);

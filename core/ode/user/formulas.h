@@ -87,7 +87,7 @@ struct gm_user_frozen {
     struct gm_user_model model;
     struct gm_break *list;
     size_t count;
-    gm_node_id *surfaces;         /* [count], g of each; then x of those at whole numbers, else g */
+    gm_node_id *surfaces;         /* [count], g of each */
     struct gm_user_event *events; /* [count], with the slopes of g */
 };
 

@@ -279,13 +279,12 @@ static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
     const size_t count = frozen->count;
     bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked);
     memset(marked, true, system->n + 1);
-    frozen->surfaces = gm_arena_take(arena, 2 * count + 1, sizeof *frozen->surfaces);
+    frozen->surfaces = gm_arena_take(arena, count + 1, sizeof *frozen->surfaces);
     frozen->events = gm_arena_take(arena, count + 1, sizeof *frozen->events);
     for (size_t i = 0; i < count; i++) {
         const struct gm_break *one = &frozen->list[i];
         struct gm_user_event *event = &frozen->events[i];
         frozen->surfaces[i] = one->surface;
-        frozen->surfaces[count + i] = one->whole == GM_NO_NODE ? one->surface : one->whole;
         event->slopes =
             gm_sparse_jacobian(arena, &system->graph, &one->surface, 1, marked, system->variable_count);
         event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
