@@ -76,7 +76,7 @@ static size_t watched(const struct gm_event_step *step)
 
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory)
 {
-    return memory + counts_at(problem) + first_break(problem);
+    return memory + first_break(problem);
 }
 
 static size_t booked_at(const struct gm_problem *problem)
@@ -137,29 +137,21 @@ static double sign_of_rate(const struct gm_event_step *step, size_t event, const
     return step->dt < 0 ? -sign : sign;
 }
 
-static void wait_with(const struct gm_event_step *step, size_t event, double sign)
-{
-    step->memory[event] = sign;
-    if (event >= first_break(step->problem)) {
-        step->memory[counts_at(step->problem) + event] = sign;
-    }
-}
-
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. At a break it
    leads to a side that it does not leave at once. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double value,
                        double nothing)
 {
     if (fabs(value) > nothing) {
-        wait_with(step, event, sign_of(value));
+        step->memory[event] = sign_of(value);
     } else if (event < first_break(step->problem)) {
         step->memory[event] = sign_of_rate(step, event, look);
     } else {
-        wait_with(step, event, 1);
+        step->memory[event] = 1;
         const double above = sign_of_rate(step, event, look);
-        wait_with(step, event, -1);
+        step->memory[event] = -1;
         const double below = sign_of_rate(step, event, look);
-        wait_with(step, event, above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0);
+        step->memory[event] = above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0;
     }
 }
 
@@ -265,7 +257,7 @@ static bool take_sides(struct rest *rest)
     bool taken = false;
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
         if (step->memory[i] == 0 && sign_of(rest->at_end[i]) != 0) {
-            wait_with(step, i, sign_of(rest->at_end[i]));
+            step->memory[i] = sign_of(rest->at_end[i]);
             taken = true;
         }
     }
@@ -329,7 +321,7 @@ static void book(struct rest *rest)
     }
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion. `scale`: of g, to know round-off from a change. */
+/* Lets an event change the state rest->to at t, or a break the motion. */
 static void change(struct rest *rest, double t, size_t event)
 {
     struct gm_event_step *step = rest->step;
@@ -345,7 +337,7 @@ static void change(struct rest *rest, double t, size_t event)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        wait_with(step, event, -step->memory[event]);
+        step->memory[event] = -step->memory[event];
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);

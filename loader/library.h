@@ -20,7 +20,8 @@ bool gm_library_find(void *library, const char *names, void *pointers);
 #define GM_LIBRARY_NAME(name) #name "\0"
 #define GM_LIBRARY_POINTER(name) __typeof__(name) *name;
 
-/* Opens a library and fills the table of its functions, or ends the program, with one sentence and status 3, or 5 for lack of memory. */
+/* Opens a library and fills the table of its functions, or ends the program, with one sentence and status 3, or 5 for
+   lack of memory. */
 void gm_library_require(const char *file, const char *names, void *pointers);
 
 /* Declare and define `const struct tag *tag(void)`, which returns the table, filled at the first call, of the
