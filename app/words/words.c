@@ -488,10 +488,13 @@ bool gm_words_complete(struct gm_arguments *words, const struct gm_scene *scene,
     struct gm_arguments arguments = {0};
     gm_arguments_split(&arguments, usual);
     gm_arguments_add(words, typed->words[0]);
+    /* what the usual words pair with their schemes fits no others */
+    const bool apart = gm_arguments_have(&arguments, "zip=yes") && gm_arguments_have(typed, "scheme=");
     for (int i = 0; i < arguments.count; i++) {
-        const char *word = gm_arguments_find(typed, arguments.words[i]);
-        if (word || !is_idle(scene, typed, arguments.words[i])) {
-            gm_arguments_add(words, word ? word : arguments.words[i]);
+        const char *one = arguments.words[i], *word = gm_arguments_find(typed, one);
+        const bool pair = strchr(one, ',') || strncmp(one, "zip=", 4) == 0;
+        if (word || !(is_idle(scene, typed, one) || (apart && pair))) {
+            gm_arguments_add(words, word ? word : one);
         }
     }
     for (int i = 1; i < typed->count; i++) { /* typed words without a place, or given twice */

@@ -262,6 +262,8 @@ static void lanes(void **unused)
         {"burgers show=frame", "burgers scheme=ftcs-invariant lambda=0,0.5,1 show=frame"},
         {"kdv until=5", "kdv scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes until=5"},
         {"kdv dt=0.01", "kdv scheme=box,zabusky-kruskal dt=0.01 points=501 zip=yes"},
+        /* other schemes take no part in the pairs */
+        {"kdv scheme=fourier-rk4", "kdv scheme=fourier-rk4 points=501"},
         {"taylor-green steps=9",
          "taylor-green scheme=crank-nicolson,semi-implicit viscosity=0 speed=1 steps=9"},
         {"henon-heiles dt=.1", "henon-heiles scheme=verlet q2=0,.1,.2,.3 energy=1/8 overlay=yes dt=.1"},
