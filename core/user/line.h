@@ -48,8 +48,8 @@ void gm_user_line_tape(const struct gm_user_line *line, struct gm_tape *tape, co
 /* The exact solution of a component; NaN if the file gives none. */
 double gm_user_line_exact(const struct gm_user_line *line, size_t component, double x, double t);
 
-/* Writes the exact solution of the first component at `count` places and times, [places, then times]; without one, what
-   starts there. */
+/* Writes the exact solution at `count` places and times, [places, then times], as [component * count + i]; without one,
+   what starts there. */
 void gm_user_line_events(const struct gm_user_line *line, const double *events, size_t count, double *values);
 
 /* Writes the outputs at nodes from number `first` on, at most GM_LINE_ROOM, [output * nodes + i]. Returns the number of

@@ -146,15 +146,24 @@ double gm_field_solution_error(const struct gm_view *view)
         constants[c] = gm_field_constant(view, c);
     }
     const double shift = field->kind->shift ? field->kind->shift(view) : 0;
-    for (size_t i = 0; i < gm_grid1_seen(grid) && !isnan(largest); i++) {
-        const double x = gm_grid1_node(grid, i) + shift;
-        double error = 0;
-        for (size_t c = 0; c < components; c++) {
-            const double there = gm_user_line_exact(gm_field_line(view), c, x, view->t),
-                         by = view->state[c * grid->points + i] - constants[c] - there;
-            error = field->kind->complex_valued ? gm_hypot(error, by) : gm_larger(fabs(by), error);
+    const size_t count = gm_grid1_seen(grid);
+    double events[2 * GM_LINE_ROOM], exact[GM_LINE_BLOCK];
+    for (size_t first = 0, some; first < count && !isnan(largest); first += some) {
+        some = count - first < GM_LINE_ROOM ? count - first : GM_LINE_ROOM;
+        for (size_t i = 0; i < some; i++) {
+            events[i] = gm_grid1_node(grid, first + i) + shift;
+            events[some + i] = view->t;
         }
-        largest = gm_larger(error, largest);
+        gm_user_line_events(gm_field_line(view), events, some, exact);
+        for (size_t i = 0; i < some; i++) {
+            double error = 0;
+            for (size_t c = 0; c < components; c++) {
+                const double by =
+                    view->state[c * grid->points + first + i] - constants[c] - exact[c * some + i];
+                error = field->kind->complex_valued ? gm_hypot(error, by) : gm_larger(fabs(by), error);
+            }
+            largest = gm_larger(error, largest);
+        }
     }
     return largest;
 }
