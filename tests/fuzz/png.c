@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `again` reads: the texts of a PNG, of any bytes or of chunks whose checksums are right, then the
-   request and the changes that they name. Each is read, or refused with a sentence, which holds nothing that
+/* What `again` reads: the texts of a PNG or an SVG, of any bytes, of chunks whose checksums are right or of elements,
+   then the request and the changes that they name. Each is read, or refused with a sentence, which holds nothing that
    a terminal would obey once it is tamed. */
 #include <libdeflate.h>
 #include <stdint.h>
@@ -13,6 +13,7 @@
 #include "app/base/arguments.h"
 #include "app/output/provenance.h"
 #include "render/cells/text.h"
+#include "render/vector/vector.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -88,27 +89,39 @@ static size_t make_picture(const uint8_t *data, size_t size, unsigned char *file
     return used + put_chunk(file + used, "IEND", NULL, 0);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+/* An SVG with an element for each piece of the data, which begins with the key's number and ends with a byte 255; its
+   size. `file` has room for 100 bytes for each of the data's, and 100 more. */
+static size_t make_drawing(const uint8_t *data, size_t size, unsigned char *file)
+{
+    size_t used = (size_t)sprintf((char *)file, "<svg><metadata>");
+    while (size >= 1) {
+        const uint8_t *end = memchr(data + 1, 255, size - 1);
+        const size_t length = end ? (size_t)(end - data) - 1 : size - 1, whole = length + 1 + (end != NULL);
+        used += (size_t)sprintf((char *)file + used, "<geomint:text key=\"%s\">", keys[data[0] % TEXTS]);
+        memcpy(file + used, data + 1, length);
+        used += length;
+        used += (size_t)sprintf((char *)file + used, "</geomint:text>");
+        data += whole;
+        size -= whole;
+    }
+    return used + (size_t)sprintf((char *)file + used, "</metadata></svg>");
+}
+
+typedef bool (*reading)(const char *path, const char *const *keys, char **texts, size_t count, char *message);
+
+/* Reads the texts of a file with these bytes, and what they name. */
+static void read_file(reading read_texts, const unsigned char *bytes, size_t size)
 {
     static int file = -1;
     char path[64], message[GM_MESSAGE] = "", *texts[TEXTS];
     if (file < 0) {
         file = memfd_create("picture", MFD_CLOEXEC);
     }
-    unsigned char *picture = malloc(32 * size + 100);
-    require(picture != NULL);
-    size_t length = size;
-    if (size > 0 && data[0] == 0x89) {
-        memcpy(picture, data, size);
-    } else {
-        length = make_picture(data, size, picture);
-    }
-    require(file >= 0 && ftruncate(file, 0) == 0 && pwrite(file, picture, length, 0) == (ssize_t)length);
-    free(picture);
+    require(file >= 0 && ftruncate(file, 0) == 0 && pwrite(file, bytes, size, 0) == (ssize_t)size);
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-    if (!gm_png_read_texts(path, keys, texts, TEXTS, message)) {
+    if (!read_texts(path, keys, texts, TEXTS, message)) {
         require(message[0] != '\0');
-        return 0;
+        return;
     }
     size_t total = 0;
     for (size_t i = 0; i < TEXTS; i++) {
@@ -121,5 +134,25 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t i = 0; i < TEXTS; i++) {
         free(texts[i]);
     }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    unsigned char *bytes = malloc(100 * size + 100);
+    require(bytes != NULL);
+    switch (size > 0 ? data[0] : 0) {
+    case 0x89: /* a PNG as it is */
+        read_file(gm_png_read_texts, data, size);
+        break;
+    case '<': /* an SVG as it is */
+        read_file(gm_svg_read_texts, data, size);
+        break;
+    case '#':
+        read_file(gm_svg_read_texts, bytes, make_drawing(data + 1, size - 1, bytes));
+        break;
+    default:
+        read_file(gm_png_read_texts, bytes, make_picture(data, size, bytes));
+    }
+    free(bytes);
     return 0;
 }
