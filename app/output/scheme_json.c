@@ -91,6 +91,9 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
             struct gm_row one = gm_row_open(&list, NULL, '}');
             gm_row_put(&one, "name %s, verdict %s, defect %.17g", followed->name, followed->verdict,
                        followed->defect);
+            if (followed->status != GM_OK) {
+                gm_row_put(&one, "reason %s", gm_status_name(followed->status));
+            }
             gm_row_close(&one);
         }
         gm_row_close(&list);

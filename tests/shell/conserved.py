@@ -151,6 +151,21 @@ for scheme, verdicts in (("gauss4", ["oscillates", "conserved", "drifts", "oscil
     check([i["verdict"] for i in followed] == verdicts and [i["name"] for i in followed] == ["H", "angular_momentum", "I1", "I2"],
           f"{scheme} on kepler: {followed}")
 
+# a loss that has ended is no oscillation; what could not be followed to the end says so
+lost = json.loads(run("certify", "implicit-euler", "--on", "system", "H=p^2/2+q^2/2", "q=1", "p=0", "dt=.1", "--json").stdout)["invariants"]
+check([i["verdict"] for i in lost] == ["drifts"] and lost[0]["defect"] > .99, f"implicit-euler loses H: {lost}")
+ended = json.loads(run("certify", "implicit-euler", "--on", "kepler", "--json").stdout)["invariants"]
+check([(i["verdict"], i.get("reason")) for i in ended] == [("not measured", "no-convergence")] * 4, f"implicit-euler on kepler: {ended}")
+
+# ---- nearly dependent invariants: on a circle the slopes of H and L are parallel ----
+for e, word in ((0, "projected(rk4; H, L; symmetric: yes)"), (1e-6, "projected(midpoint; H, L; symmetric: yes)"),
+                (1e-4, "projected(verlet; H, L; symmetric: yes)")):
+    got = numbers("kepler", f"eccentricity={e}", "scheme=" + word, "dt=.01", "steps=600", "--max")
+    check(isinstance(got, list) and got[0]["status"] == "ok" and got[0]["observables"]["energy_error_max"] < 1e-13,
+          f"{word} at eccentricity {e}: {got}")
+got = run("run", "kepler", "scheme=projected(rk4; H; symmetric: yes)", "dt=3", "--json")
+check(got.returncode == 2 and json.loads(got.stdout)["status"] == "no-convergence", f"a step too long: {got.stdout}")
+
 # ---- engines, members, files ----
 states = [numbers("kepler", "perturbation=0.01", "scheme=projected(rk4; H, L)", "dt=.05", "steps=200", "--state", "--engine", e)
           for e in ("interpreted", "auto")]

@@ -365,36 +365,66 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     gm_certificate_note_same(certificate, &subject->problem, &settings, subject->dt, subject->start);
 }
 
-/* Notes what becomes of an invariant in 4000 steps. An error that grows in proportion to the time is four times as large
-   in the last quarter as in the first, one that oscillates is not twice as large. */
+/* The changes of an invariant within a quarter of the run. */
+struct quarter {
+    double low, high;
+};
+
+static double largest(const struct quarter *quarter)
+{
+    return fmax(-quarter->low, quarter->high);
+}
+
+/* An error that grows in proportion to the time is four times as large in the last quarter as in the first, one that
+   oscillates is not twice as large. A loss that ends has changed by a part of the invariant, and rests. */
+static bool drifts(const struct quarter *first, const struct quarter *last, double low, double high,
+                   double scale)
+{
+    const bool rests = last->high - last->low < 0.05 * (high - low) && high - low > 0.05 * scale;
+    return rests || largest(last) > 2 * largest(first);
+}
+
+/* Notes what becomes of an invariant in 4000 steps. */
 static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
                    const struct gm_kept *kept)
 {
     enum { QUARTERS = 4, LOOKS = 100, STEPS = 10 };
     const double round_off = 1e-12, x0 = kept->value(kept->data, subject->start, NULL);
+    const double scale = fabs(x0) > round_off ? fabs(x0) : 1;
     const char *end = strstr(name, "_error");
     const struct gm_settings settings = gm_subject_settings(subject->dt);
-    double largest[QUARTERS] = {0};
+    struct quarter quarters[QUARTERS];
+    double low = 0, high = 0;
     struct gm_run *run =
         certificate->followed_count < GM_MOST_FOLLOWED
             ? gm_run_open(&subject->problem, certificate->scheme, &settings, 0, subject->dt, subject->start)
             : NULL;
+    if (!run) {
+        return;
+    }
     int look = 0;
-    for (; run && look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
-        const double change = fabs(kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0);
-        largest[look / LOOKS] = fmax(largest[look / LOOKS], change);
+    for (; look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
+        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0;
+        struct quarter *now = &quarters[look / LOOKS];
+        *now = look % LOOKS == 0 ? (struct quarter){change, change}
+                                 : (struct quarter){fmin(now->low, change), fmax(now->high, change)};
+        low = fmin(low, change);
+        high = fmax(high, change);
+    }
+    struct gm_followed *row = &certificate->followed[certificate->followed_count++];
+    snprintf(row->name, sizeof row->name, "%.*s", (int)(end ? end - name : (ptrdiff_t)strlen(name)), name);
+    row->defect = fmax(-low, high) / scale;
+    row->steps = run->steps;
+    row->status = run->status;
+    if (look < QUARTERS * LOOKS) {
+        row->verdict = "not measured";
+    } else if (row->defect <= round_off) {
+        row->verdict = "conserved";
+    } else {
+        row->verdict =
+            drifts(&quarters[0], &quarters[QUARTERS - 1], low, high, scale) ? "drifts" : "oscillates";
     }
     gm_run_close(run);
-    if (look == QUARTERS * LOOKS) {
-        struct gm_followed *row = &certificate->followed[certificate->followed_count++];
-        const double scale = fabs(x0) > round_off ? fabs(x0) : 1;
-        snprintf(row->name, sizeof row->name, "%.*s", (int)(end ? end - name : (ptrdiff_t)strlen(name)),
-                 name);
-        row->defect = fmax(fmax(largest[0], largest[1]), fmax(largest[2], largest[3])) / scale;
-        row->verdict = row->defect <= round_off                 ? "conserved"
-                       : largest[QUARTERS - 1] > 2 * largest[0] ? "drifts"
-                                                                : "oscillates";
-    }
 }
 
 /* Follows H, the invariants that the system names, and those that are found: I1, I2, ... */

@@ -2,7 +2,7 @@
 /* The correction of a state to given values of invariants I_j, D = the rows dI_j/dy: with a rotation V of the rows
    that makes them orthogonal (one-sided Jacobi method),
        (D D')^+ = V diag(1/s_j^2) V',   s_j the lengths of the rows of V'D,
-   without those rows whose length is round-off of the longest. G.H. Golub & C.F. Van Loan, Matrix Computations (2013),
+   without those rows whose length, or whose distance, is round-off. G.H. Golub & C.F. Van Loan, Matrix Computations (2013),
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
@@ -124,11 +124,14 @@ void gm_held_solve(const struct gm_held *held, const double *off, double *multip
         longest = fmax(longest, held->length[j]);
     }
     for (size_t j = 0; j < held->count; j++) {
-        if (held->length[j] > 1e-24 * longest) {
-            const double part = dot(held->turn[j], off, held->count) / held->length[j];
-            for (size_t i = 0; i < held->count; i++) {
-                multipliers[i] += part * held->turn[j][i];
-            }
+        const double part = dot(held->turn[j], off, held->count);
+        double round_off = 0; /* divided by a short length it would be a long way */
+        for (size_t i = 0; i < held->count; i++) {
+            round_off += 4 * GM_EPSILON * fabs(held->turn[j][i]) * (fabs(held->values[i]) + held->scale[i]);
+        }
+        for (size_t i = 0; held->length[j] > 1e-24 * longest && fabs(part) > round_off && i < held->count;
+             i++) {
+            multipliers[i] += part / held->length[j] * held->turn[j][i];
         }
     }
 }

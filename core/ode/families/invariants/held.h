@@ -42,7 +42,8 @@ void gm_held_turn(struct gm_held *held, const double *y);
 double gm_held_miss(struct gm_held *held, const double *values, const double *y, double *off);
 /* The same of held->values, which are those at some state. */
 double gm_held_distance(const struct gm_held *held, const double *values, double *off);
-/* multipliers := (D D')^+ off, D the turned slopes: singular values below 1e-12 of the largest are dropped. */
+/* multipliers := (D D')^+ off, D the turned slopes, without singular values below 1e-12 of the largest and distances
+   that are round-off. */
 void gm_held_solve(const struct gm_held *held, const double *off, double *multipliers);
 /* Notes the invariant that held->values have farthest off; returns GM_NO_CONVERGENCE. */
 enum gm_status gm_held_fails(const struct gm_held *held, const double *values, struct gm_progress *progress);

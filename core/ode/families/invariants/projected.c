@@ -42,8 +42,8 @@ static enum gm_status project_symmetrically(struct gm_held *held, const struct g
         gm_held_move(y, held->start_slopes, mu, count, n, held->move);
         const enum gm_status status =
             gm_base_step(&held->base, task, task->dt, held->move, held->next, progress);
-        if (status != GM_OK) {
-            return status;
+        if (status != GM_OK) { /* from moved states it is this iteration that fails */
+            return i == 0 ? status : gm_held_fails(held, values, progress);
         }
         if (i == 0) {
             memcpy(held->z, held->next, n * sizeof *held->z);
@@ -80,13 +80,16 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
             status = project(held, values, progress);
         }
     }
+    if (status != GM_OK) {
+        return status;
+    }
     memcpy(members->y, held->z, held->n * sizeof *held->z);
     for (size_t c = 0; !held->holding->constraints && c < held->n; c++) {
         const double moved = held->z[c] - held->next[c];
         members->memory[GM_HELD_CORRECTION] =
             gm_hypot(c > 0 ? members->memory[GM_HELD_CORRECTION] : 0, moved);
     }
-    return status;
+    return GM_OK;
 }
 
 #define ONTO_CONSTRAINTS(phi)                                                                                \
