@@ -1037,6 +1037,9 @@ static void print_found(struct report *report, const struct found *found)
     if (invariants->lowered) {
         printf("degree %zu has more than %d candidates\n", invariants->degree + 1, GM_MOST_CANDIDATES);
     }
+    if (gm_system_item_of(&report->system, GM_WORD_EVENT, 0)) {
+        puts("all of this holds between events, which may change it");
+    }
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];
         gm_print_wrapped(gm_arena_print(report->arena, "%s = %s (degree %zu)",
@@ -1067,7 +1070,8 @@ static void put_found(struct report *report, const struct found *found)
 {
     const struct gm_found_invariants *invariants = &found->invariants;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_put(&row, "degree %i, candidates %i", (int)invariants->degree, (int)invariants->candidates);
+    gm_row_put(&row, "degree %i, candidates %i, between_events %d", (int)invariants->degree,
+               (int)invariants->candidates, gm_system_item_of(&report->system, GM_WORD_EVENT, 0) != NULL);
     struct gm_row list = gm_row_open(&row, "invariants_found", ']');
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];

@@ -166,6 +166,12 @@ for e, word in ((0, "projected(rk4; H, L; symmetric: yes)"), (1e-6, "projected(m
 got = run("run", "kepler", "scheme=projected(rk4; H; symmetric: yes)", "dt=3", "--json")
 check(got.returncode == 2 and json.loads(got.stdout)["status"] == "no-convergence", f"a step too long: {got.stdout}")
 
+for word, said in (("projected(rk4; L, angular_momentum)", "angular_momentum is L"),
+                   ("projected(rk4; X)", "an invariant X (there are H, angular_momentum; those that list --invariants finds are I1, I2")):
+    got = run("run", "kepler", "scheme=" + word, "steps=2")
+    check(got.returncode == 1 and said in got.stderr, f"{word}: {got.stderr}")
+check("holds between events" in run("list", "bouncing-ball", "--invariants").stdout, "a bounce changes H")
+
 # ---- engines, members, files ----
 states = [numbers("kepler", "perturbation=0.01", "scheme=projected(rk4; H, L)", "dt=.05", "steps=200", "--state", "--engine", e)
           for e in ("interpreted", "auto")]

@@ -43,6 +43,13 @@ static bool open_tapes(struct gm_conserved *conserved, const char *const *names,
         if (nodes[i] == GM_NO_NODE || !gm_gradient(graph, nodes[i], NULL, n, slopes + i * n)) {
             return false;
         }
+        for (size_t k = 0; k < i; k++) {
+            if (nodes[k] == nodes[i] && conserved->energy != i && conserved->energy != k) {
+                snprintf(lacks, GM_FAULT_SENTENCE, "every invariant once; %.60s is %.60s", names[i],
+                         names[k]);
+                return false;
+            }
+        }
     }
     for (size_t i = 0; i < count * n; i++) {
         conserved->linear &= graph->nodes[slopes[i]].operation == GM_CONSTANT && conserved->energy == count;

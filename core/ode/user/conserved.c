@@ -137,11 +137,11 @@ static gm_node_id found(struct gm_arena *arena, const struct naming *naming, siz
 /* "H, L, and I1, I2, ...": the names that there are. */
 static const char *names_of(struct gm_arena *arena, const struct gm_user_system *system)
 {
-    const char *names = system->kind <= GM_LAGRANGIAN || system->kind == GM_POISSON ? "H, " : "";
+    const char *names = system->kind <= GM_LAGRANGIAN || system->kind == GM_POISSON ? "H" : "";
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (gm_system_is_observed(item) && gm_system_conserved(system, item) != GM_NO_NODE && item->name[0]) {
-            names = gm_arena_print(arena, "%s%.40s, ", names, item->name);
+            names = gm_arena_print(arena, "%s%s%.40s", names, names[0] ? ", " : "", item->name);
         }
     }
     return names;
@@ -198,10 +198,10 @@ static void resolve(struct gm_arena *arena, void *data)
         naming->node = found(arena, naming, number);
     }
     if (naming->node == GM_NO_NODE) {
-        refuse(
-            arena, naming,
-            "an invariant %.40s (there are %.160s%sthose without a name of list --invariants, %s1, %s2, ...)",
-            naming->name, names_of(arena, system), names_of(arena, system)[0] ? "and " : "", word, word);
+        const char *names = names_of(arena, system);
+        refuse(arena, naming,
+               "an invariant %.40s (%s%.160s; those that list --invariants finds are %s1, %s2, ...)",
+               naming->name, names[0] ? "there are " : "the system names none", names, word, word);
     }
     if (!trusted) {
         check_rate(arena, naming);
