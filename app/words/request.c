@@ -10,7 +10,6 @@
 #include "app/base/arguments.h"
 #include "app/native/engine.h"
 #include "app/words/names.h"
-#include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/words/names.h"
 #include "core/aliases.h"
 #include "core/arena.h"
@@ -229,15 +230,12 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
 {
     enum { SHORT = 8 };
-    const struct gm_word_piece *piece = piece_of(list, &index);
-    if (piece->range.count == 0) {
-        return piece->text;
-    }
-    const double value = value_in(&piece->range, index);
-    if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
+    const char *word = gm_word_value(list, index, text);
+    const double value = strtod(word, NULL);
+    if (word == text && strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) { /* one of a range */
         snprintf(text, GM_TEXT_SIZE, "%.6g", value);
     }
-    return text;
+    return word;
 }
 
 static bool has_digits_alone(const char *text)
@@ -577,9 +575,8 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
 
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -594,6 +591,5 @@ char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
             gm_arguments_put(stream, scheme ? gm_scheme_word(scheme) : typed);
         }
     }
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }

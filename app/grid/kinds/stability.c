@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "app/grid/grid.h"
-#include "app/grid/hooks.h"
 #include "core/arena.h"
 #include "core/expression/number.h"
 

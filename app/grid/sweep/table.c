@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/grid/sweep.h"
