@@ -263,9 +263,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     gm_print_wrapped(scene->title, 0, 0);
     gm_print_wrapped(scene->blurb, 0, 0);
     gm_print_wrapped(scene->watch, 0, 0);
-    char unit[GM_MESSAGE];
-    snprintf(unit, sizeof unit, "The unit of time is %s.", scene->time);
-    gm_print_wrapped(unit, 0, 0);
+    gm_print_wrapped(gm_arena_print(options->arena, "The unit of time is %s.", scene->time), 0, 0);
     printf("\n");
     gm_print_wrapped("meaning [range]", printf("%-*s default ", KEY + 2, "parameter"), KEY + DEFAULT + 4);
     for (size_t i = 0; i < entry->row_count; i++) {

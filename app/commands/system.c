@@ -466,34 +466,45 @@ static const char *equation_fact(const struct report *report)
     return text;
 }
 
-/* Calls `put` for every fact of the structure; `of` is the component that it is about, or "". */
-static void each_fact(const struct report *report,
-                      void (*put)(struct gm_row *row, const char *word, const char *of, bool holds,
-                                  const char *reason),
-                      struct gm_row *row)
+/* Puts a fact, of a component or "", into an object of JSON or, with NULL, prints it. */
+static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
+{
+    char key[80];
+    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
+    if (row) {
+        struct gm_row fact = gm_row_open(row, key, '}');
+        gm_row_put(&fact, "holds %d, reason %s", holds, reason);
+    } else {
+        gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
+    }
+}
+
+/* Puts or prints every fact of the structure. */
+static void put_facts(const struct report *report, struct gm_row *row)
 {
     const struct gm_user_system *system = &report->system;
     for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
-        put(row, "linear part", system->variables[i].name, has_linear(report, i), linear_fact(report, i));
+        put_fact(row, "linear part", system->variables[i].name, has_linear(report, i),
+                 linear_fact(report, i));
     }
     if (system->kind == GM_MATRICES) {
-        put(row, "multisymplectic", "", true, form_fact);
+        put_fact(row, "multisymplectic", "", true, form_fact);
     }
     if (report->recognised.name) {
-        put(row, "equation", "", true, equation_fact(report));
+        put_fact(row, "equation", "", true, equation_fact(report));
     }
     if (system->alone) {
-        put(row, "lagrangian", "", true,
-            "the sum of the cells' Lagrangian, which does not depend on the time");
+        put_fact(row, "lagrangian", "", true,
+                 "the sum of the cells' Lagrangian, which does not depend on the time");
     }
     for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD && !system->alone; i++) {
-        put(row, field_facts[i][0], "", true, field_facts[i][1]);
+        put_fact(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
         char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
         if (reason) {
-            put(row, gm_fact_word(fact), "", finding->holds, reason);
+            put_fact(row, gm_fact_word(fact), "", finding->holds, reason);
         }
         free(reason);
     }
@@ -502,17 +513,10 @@ static void each_fact(const struct report *report,
         const struct gm_stiffness stiffness =
             gm_stiffness_of(&report->problem, start_of(report), until->value);
         if (stiffness.stiff) {
-            put(row, "stiff", "", true,
-                gm_arena_print(report->arena, "rates %.2g to %.2g", stiffness.slow, stiffness.fast));
+            put_fact(row, "stiff", "", true,
+                     gm_arena_print(report->arena, "rates %.2g to %.2g", stiffness.slow, stiffness.fast));
         }
     }
-}
-
-static void print_fact(struct gm_row *unused, const char *word, const char *of, bool holds,
-                       const char *reason)
-{
-    (void)unused, (void)of;
-    gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
 }
 
 /* The rates of a part as equations, without those that are 0; parameters have their values. */
@@ -540,32 +544,31 @@ static const char *part_equations(const struct report *report, const char *part)
                                : gm_arena_print(report->arena, "%.*s ...", (int)most, text);
 }
 
-/* Calls `put` for every part that has a name, with the way in which its flow is computed, and its equations. */
-static void each_part(const struct report *report,
-                      void (*put)(struct gm_row *row, const char *name, const char *flow), struct gm_row *row)
+/* Puts or prints every part that has a name, with the way in which its flow is computed, and its equations. */
+static void put_parts(const struct report *report, struct gm_row *row)
 {
     const struct gm_ode *ode = gm_system_is_field(&report->system) ? NULL : gm_ode_of(&report->problem);
     for (const char *const *name = ode && ode->parts ? ode->parts->names : NULL; name && *name; name++) {
         const char *flow = gm_part_flow(&report->problem, *name);
-        if (flow || (size_t)(name - ode->parts->names) < ode->parts->given) {
-            put(row, *name,
-                gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
-                               part_equations(report, *name)));
+        if (!flow && (size_t)(name - ode->parts->names) >= ode->parts->given) {
+            continue;
+        }
+        const char *told =
+            gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
+                           part_equations(report, *name));
+        if (row) {
+            gm_row_text(row, *name, told);
+        } else {
+            gm_print_wrapped(told, printf("  %-16s ", *name), 19);
         }
     }
-}
-
-static void print_part(struct gm_row *unused, const char *name, const char *flow)
-{
-    (void)unused;
-    gm_print_wrapped(flow, printf("  %-16s ", name), 19);
 }
 
 static void print_parts(const struct report *report)
 {
     if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
         printf("\nparts\n");
-        each_part(report, print_part, NULL);
+        put_parts(report, NULL);
     }
 }
 
@@ -575,7 +578,7 @@ static void print_facts(const struct report *report)
     if (report->system.kind == GM_POISSON) {
         printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
     }
-    each_fact(report, print_fact, NULL);
+    put_facts(report, NULL);
 }
 
 /* True for a scheme of the system; nodes alone have those of free nodes. */
@@ -688,14 +691,6 @@ static void put_equations(struct gm_row *row, const struct report *report)
     }
 }
 
-static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
-{
-    char key[80];
-    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
-    struct gm_row fact = gm_row_open(row, key, '}');
-    gm_row_put(&fact, "holds %d, reason %s", holds, reason);
-}
-
 static void print_json(const struct report *report, const struct gm_file *file)
 {
     const struct gm_user_system *system = &report->system;
@@ -705,9 +700,9 @@ static void print_json(const struct report *report, const struct gm_file *file)
     put_values(&row, report);
     put_equations(&row, report);
     struct gm_row structure = gm_row_open(&row, "structure", '}');
-    each_fact(report, put_fact, &structure);
+    put_facts(report, &structure);
     struct gm_row parts = gm_row_open(&row, "parts", '}');
-    each_part(report, gm_row_text, &parts);
+    put_parts(report, &parts);
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {

@@ -419,8 +419,7 @@ void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm
 {
     if (count > 0) {
         gm_mark_line(picture, panel, style, points, count, false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, points,
-                       count);
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, points, count);
         gm_panel_key(picture, panel, style, name);
     }
 }

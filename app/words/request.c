@@ -651,8 +651,7 @@ void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters)
 double gm_request_steps(const struct gm_request *request, size_t index)
 {
     const struct gm_lane_spec *spec = &request->lanes[index];
-    const bool adaptive = spec->scheme && spec->scheme->family->adaptive;
-    return adaptive ? 0 : (double)spec->steps;
+    return spec->scheme && spec->scheme->family->adaptive ? 0 : (double)spec->steps;
 }
 
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)

@@ -437,8 +437,7 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
             return gm_refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
                              words->list[i].key, count, *runs);
         }
-        const bool many = count > most || (!words->zip && *runs > most / count);
-        if (many) {
+        if (count > most || (!words->zip && *runs > most / count)) {
             return gm_refuse(message, "that makes more than %zu %s", most,
                              most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
         }

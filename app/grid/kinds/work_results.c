@@ -424,8 +424,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         lines[i] = (struct drawn){own, points_of(chosen[i], cost, own)};
         const struct gm_style style = gm_chart_style(i);
         gm_mark_line(picture, panel, style, own, lines[i].count, false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,
-                       lines[i].count);
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, own, lines[i].count);
     }
     for (size_t i = 0; i < chosen_count; i++) {
         const char *name = chosen[i]->scheme->title;
@@ -434,7 +433,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         }
         const struct place place = name_place(&names, &lines[i], (size_t)gm_text_width(name, false));
         names.taken[names.taken_count++] = place;
-        gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(i), .alpha = 1, .width = 1},
+        gm_mark_text(picture, panel, (struct gm_style){gm_lane_role(i), 1, 1, GM_SOLID},
                      panel->x.low * pow(panel->x.high / panel->x.low, place.left),
                      panel->y.low * pow(panel->y.high / panel->y.low, 0.5 * (place.low + place.high)),
                      GM_ANCHOR_LEFT, name);

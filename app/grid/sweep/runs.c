@@ -480,16 +480,8 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, write_head), free);
-}
-
-size_t gm_sweep_index_cell(const struct gm_sweep *sweep)
-{
-    enum { VALUE = 2 }; /* cells after the index */
-    size_t commas = 0;
-    for (const char *at = sweep->head; *at; at++) {
-        commas += *at == ',';
-    }
-    return sweep->values ? commas - VALUE : 0;
+    sweep->status = 1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL);
+    sweep->index = sweep->values ? sweep->status + GM_SWEEP_COSTS + sweep->chosen.count : 0;
 }
 
 size_t gm_sweep_shard_runs(const struct gm_sweep *sweep)
