@@ -707,11 +707,9 @@ static void print_json(const struct report *report, const struct gm_file *file)
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         if (count < GM_FITTING_SCHEMES && fits(report, gm_scheme_at(i))) {
+            same[count] = gm_scheme_same_as(gm_scheme_at(i), &report->problem);
             fitting[count++] = gm_scheme_at(i);
         }
-    }
-    for (size_t i = 0; i < count; i++) {
-        same[i] = gm_scheme_same_as(fitting[i], &report->problem);
     }
     gm_list_put_schemes(&row, fitting, same, count);
     gm_list_put_file(&row, file, system->source);
