@@ -160,7 +160,7 @@ static void obey(struct gm_arena *arena, void *data)
     struct running *running = data;
     running->options.arena = arena;
     running->options.end = &running->status;
-    running->status = running->command->function(&running->options);
+    running->status = gm_finish(running->command->function(&running->options));
 }
 
 static int run(int argc, char *argv[])

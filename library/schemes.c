@@ -5,7 +5,7 @@
 
 #include "app/grid/grid.h"
 #include "app/output/scheme_json.h"
-#include "app/words/scheme.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 #include "core/theory/certify.h"
 #include "library/handle.h"

@@ -154,23 +154,21 @@ void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene)
 
 void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size)
 {
-    char *whole = NULL;
-    size_t length = 0;
-    FILE *stream = scene->words ? open_memstream(&whole, &length) : NULL;
-    for (size_t i = 0; stream && scene->words[i]; i++) {
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
+    for (size_t i = 0; stream && scene->words && scene->words[i]; i++) {
         fputs(i ? " " : "", stream);
         gm_arguments_put_shell(stream, scene->words[i]);
     }
-    const bool told = stream && fclose(stream) == 0;
-    snprintf(text, size, "%s", told ? whole : scene->name);
+    char *whole = gm_stream_end(&writing);
+    snprintf(text, size, "%s", whole && scene->words ? whole : scene->name);
     free(whole);
 }
 
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -179,8 +177,22 @@ char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)
         fputc(' ', stream);
         gm_arguments_put(stream, arguments->words[i]);
     }
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
+}
+
+FILE *gm_stream_begin(struct gm_text_stream *writing)
+{
+    *writing = (struct gm_text_stream){0};
+    return writing->stream = open_memstream(&writing->text, &writing->size);
+}
+
+char *gm_stream_end(struct gm_text_stream *writing)
+{
+    if (writing->stream && fclose(writing->stream) == 0) {
+        return writing->text;
+    }
+    free(writing->text);
+    return NULL;
 }
 
 void gm_append(char *text, size_t size, const char *format, ...)

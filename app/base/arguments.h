@@ -46,6 +46,16 @@ void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t si
 /* "FRONT word word"; malloc'ed. Returns NULL when out of memory. */
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 
+/* A text that grows as its stream is written. gm_stream_begin returns the stream, NULL when out of memory;
+   gm_stream_end closes it and returns the text, malloc'ed, or NULL without a stream or memory. */
+struct gm_text_stream {
+    FILE *stream;
+    char *text;
+    size_t size;
+};
+FILE *gm_stream_begin(struct gm_text_stream *writing);
+char *gm_stream_end(struct gm_text_stream *writing);
+
 /* Appends to a text, as far as its `size` bytes have room. */
 __attribute__((format(printf, 3, 4))) void gm_append(char *text, size_t size, const char *format, ...);
 

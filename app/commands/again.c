@@ -218,7 +218,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     } else {
         gm_printer_report(&print, "");
     }
-    return gm_finish(status);
+    return status;
 }
 
 int gm_command_again(const struct gm_options *options)

@@ -25,7 +25,7 @@ int gm_command_cache(const struct gm_options *options)
         if (!all) {
             gm_complain("%s", message);
         }
-        return gm_finish(all ? GM_EXIT_OK : GM_EXIT_FILE);
+        return all ? GM_EXIT_OK : GM_EXIT_FILE;
     }
     size_t count = 0, bytes = 0;
     struct gm_cache_entry *entries = NULL;
@@ -45,5 +45,5 @@ int gm_command_cache(const struct gm_options *options)
     }
     gm_say("%zu kernel%s of %zu bytes in %s", count, gm_plural((double)count), bytes, folder);
     free(entries);
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }

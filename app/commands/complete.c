@@ -11,7 +11,6 @@
 #include "app/commands/reference/reference.h"
 #include "app/figures/figure.h"
 #include "app/grid/sweep.h"
-#include "app/output/say.h"
 #include "app/words/names.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
@@ -337,7 +336,7 @@ int gm_command_complete(const struct gm_options *options)
     const char *last = count > 0 ? words[count - 1] : "";
     if (count <= 1) {
         offer_commands(last);
-        return gm_finish(GM_EXIT_OK);
+        return GM_EXIT_OK;
     }
     const struct gm_command_row *command = gm_command_find(words[0]);
     const struct gm_scene *scene = NULL;
@@ -352,7 +351,7 @@ int gm_command_complete(const struct gm_options *options)
         }
     }
     if (!command) {
-        return gm_finish(GM_EXIT_OK);
+        return GM_EXIT_OK;
     }
     const struct gm_option *option =
         count > 2 && !strchr(words[count - 2], '=') ? option_of(command, words[count - 2]) : NULL;
@@ -369,5 +368,5 @@ int gm_command_complete(const struct gm_options *options)
             offer_words(command, last, scene);
         }
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }

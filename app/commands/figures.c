@@ -190,6 +190,13 @@ static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome
     }
 }
 
+static const char *source_name(enum gm_source source)
+{
+    static const char *const names[] = {
+        [GM_OF_DOCUMENT] = "document", [GM_OF_OURS] = "ours", [GM_OF_VARIANT] = "variant"};
+    return names[source];
+}
+
 static void print_json(const struct gm_figure_job *job, const struct gm_outcome *outcome)
 {
     struct gm_row row = gm_row_begin(stdout);
@@ -203,13 +210,11 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
         const double scale = outcome->verdicts[i].scale;
         struct gm_row said = gm_row_open(&statements, NULL, '}');
         gm_row_put(&said, "says %s, of %s, verdict %s, note %s", statement->says,
-                   gm_source_name(gm_statement_source(job, i)), gm_verdict_word(job, outcome, i),
+                   source_name(gm_statement_source(job, i)), gm_verdict_word(job, outcome, i),
                    job->shortened ? "" : outcome->verdicts[i].note);
         gm_row_list(&said, "found", (const double[]){outcome->verdicts[i].low, outcome->verdicts[i].high}, 2);
         gm_row_list(&said, "expected", (const double[]){statement->low * scale, statement->high * scale}, 2);
-        gm_row_close(&said);
     }
-    gm_row_close(&statements);
     struct gm_row lanes = gm_row_open(&row, "lanes", ']');
     for (size_t i = 0; outcome->progress == GM_MADE && i < outcome->lane_count; i++) {
         struct gm_row lane = gm_row_open(&lanes, NULL, '}');
@@ -219,12 +224,8 @@ static void print_json(const struct gm_figure_job *job, const struct gm_outcome 
         for (size_t k = 0; k < gm_figure_observables(job); k++) {
             gm_row_number(&observables, job->scene->observables[k].key, outcome->lanes[i].observables[k], 17);
         }
-        gm_row_close(&observables);
-        gm_row_close(&lane);
     }
-    gm_row_close(&lanes);
-    gm_row_close(&row);
-    putchar('\n');
+    gm_row_close(&row, "\n");
 }
 
 static void print_text(const struct gm_figure_job *job, const struct gm_outcome *outcome)
@@ -410,5 +411,5 @@ int gm_command_figures(const struct gm_options *options)
             status = series->outcomes[i].status;
         }
     }
-    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
 }

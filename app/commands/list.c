@@ -12,7 +12,6 @@
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
 #include "app/words/names.h"
-#include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "core/aliases.h"
 #include "core/arena.h"
@@ -35,7 +34,7 @@ static void list_texts(const struct gm_options *options, const char *const texts
         for (size_t i = 0; i < count; i++) {
             gm_row_text(&row, texts[i][0], texts[i][1]);
         }
-        printf("}\n");
+        gm_row_close(&row, "\n");
         return;
     }
     char name[256]; /* it may be a file's */
@@ -57,7 +56,7 @@ static int list_scenes(const struct gm_options *options)
                                         {"time_unit", scene ? scene->time : ""}};
         list_texts(options, texts, GM_COUNT(texts), GM_COUNT(texts) - 1, 16);
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 static void print_formula(const char *text)
@@ -155,7 +154,7 @@ static int list_schemes_like(const struct gm_scheme *like, const struct gm_optio
     if (!options->json) {
         print_legend(schemes, count);
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 static int list_schemes(const struct gm_options *options)
@@ -172,7 +171,7 @@ static int list_figures(const struct gm_options *options)
             struct gm_row row = gm_row_begin(stdout);
             gm_row_put(&row, "figure %s, scene %s, arguments %s, statement %s", figure->name, scene->name,
                        figure->arguments, figure->statement);
-            printf("}\n");
+            gm_row_close(&row, "\n");
             continue;
         }
         gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
@@ -180,7 +179,7 @@ static int list_figures(const struct gm_options *options)
             gm_print_wrapped(figure->arguments, printf("  geomint render %s ", scene->name), 2);
         }
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* The widths of the columns of parameters' keys and defaults. */
@@ -202,7 +201,6 @@ static void put_parameter(struct gm_row *rows, const struct gm_parameter *parame
     struct gm_row row = gm_row_open(rows, NULL, '}');
     gm_row_put(&row, "key %s, default %s, range %s, live %d, help %s", parameter->key, parameter->standard,
                gm_catalogue_range(parameter, range, sizeof range), parameter->live, parameter->help);
-    gm_row_close(&row);
 }
 
 static void put_keys(struct gm_row *row, const char *key, const struct gm_observable *observables,
@@ -212,7 +210,6 @@ static void put_keys(struct gm_row *row, const char *key, const struct gm_observ
     for (size_t i = 0; i < count; i++) {
         gm_row_text(&keys, NULL, observables[i].key);
     }
-    gm_row_close(&keys);
 }
 
 /* The default lanes of a command for a scene, given by its name or the path of its file:
@@ -266,9 +263,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     gm_print_wrapped(scene->title, 0, 0);
     gm_print_wrapped(scene->blurb, 0, 0);
     gm_print_wrapped(scene->watch, 0, 0);
-    char unit[GM_MESSAGE];
-    snprintf(unit, sizeof unit, "The unit of time is %s.", scene->time);
-    gm_print_wrapped(unit, 0, 0);
+    gm_print_wrapped(gm_arena_print(options->arena, "The unit of time is %s.", scene->time), 0, 0);
     printf("\n");
     gm_print_wrapped("meaning [range]", printf("%-*s default ", KEY + 2, "parameter"), KEY + DEFAULT + 4);
     for (size_t i = 0; i < entry->row_count; i++) {
@@ -303,12 +298,11 @@ static void print_entry_json(const struct entry *entry, const struct gm_file *fi
     for (size_t i = 0; i < entry->row_count; i++) {
         put_parameter(&parameters, entry->rows[i]);
     }
-    gm_row_close(&parameters);
     put_keys(&row, "observables", scene->observables, scene->observable_count);
     put_keys(&row, "asked", scene->asked, scene->asked_count);
     gm_list_put_schemes(&row, entry->schemes, entry->same, entry->scheme_count);
     gm_list_put_file(&row, file, file && file->built_in ? file->built_in->text : scene->room);
-    printf("}\n");
+    gm_row_close(&row, "\n");
 }
 
 /* Returns true if a word means a file: a scene of the program has precedence over a file, unless it is
@@ -333,7 +327,7 @@ static int list_scene(const struct gm_scene *scene, const char *name, const stru
             gm_list_structure(options, &system);
         }
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* The lists beside those of a scene. */
@@ -366,7 +360,7 @@ static int list_files(const struct list *list, const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     const bool listed = gm_files_each(list->kind, list_file, &(const struct listing){list, options}, message);
-    return listed ? gm_finish(GM_EXIT_OK) : gm_give_up(GM_EXIT_FILE, "%s", message);
+    return listed ? GM_EXIT_OK : gm_give_up(GM_EXIT_FILE, "%s", message);
 }
 
 static const struct list *find_list(const char *word)
@@ -390,7 +384,7 @@ static int list_markdown(const struct gm_options *options, const char *what)
     gm_command_end_if(options, !scenes && strcmp(what, "schemes") != 0, GM_EXIT_USAGE,
                       "--markdown lists scenes or schemes");
     (scenes ? gm_catalogue_scenes_markdown : gm_catalogue_schemes_markdown)();
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 static bool is_figure(const char *word)
@@ -444,7 +438,7 @@ static int list_source(const struct gm_options *options, const char *word)
     gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
     fwrite(text, 1, length, stdout);
     free(text);
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* The scheme that a name, the path of a file or a word means. */

@@ -5,7 +5,6 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/reference.h"
-#include "app/output/say.h"
 #include "app/words/words.h"
 #include "core/aliases.h"
 #include "core/basics.h"
@@ -169,5 +168,5 @@ int gm_command_manual(const struct gm_options *options)
             }
         }
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }

@@ -517,8 +517,7 @@ bool gm_options_take_stdout(const struct gm_options *options)
 
 void gm_options_close(void *self)
 {
-    struct gm_options *options = self;
-    gm_arguments_close(&options->arguments);
+    gm_arguments_close(&((struct gm_options *)self)->arguments);
 }
 
 const char *gm_option_name(const char *word)

@@ -152,10 +152,22 @@ static void open_lanes(struct work *work)
     }
 }
 
+/* The first of our missing frames, or the last; -1: none is missing. */
+static long missing_frame(const struct gm_frames *frames, bool last)
+{
+    long found = -1;
+    for (long frame = 0; frame < frames->schedule->count && (last || found < 0); frame++) {
+        if (!frames->there[frame] && gm_schedule_is_ours(frames->schedule, frame)) {
+            found = frame;
+        }
+    }
+    return found;
+}
+
 /* Loads the state after the frame before the first missing one, if a checkpoint has it. */
 static void resume(struct work *work)
 {
-    const long first = gm_frames_missing(&work->frames, false);
+    const long first = missing_frame(&work->frames, false);
     long frame = -1;
     bool spoilt = false;
     if (first < 0 || !work->checkpoint) {
@@ -188,7 +200,7 @@ static void make_frames(struct work *work)
     enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; part of the time that they may take */
     const double started = gm_clock_seconds();
     const bool progress = isatty(STDERR_FILENO);
-    const long last = work->movie ? work->schedule.count - 1 : gm_frames_missing(&work->frames, true);
+    const long last = work->movie ? work->schedule.count - 1 : missing_frame(&work->frames, true);
     double due = started + INTERVAL;
     long made = 0, painted = -1;
     work->done = work->frames.found;
@@ -221,6 +233,16 @@ static void make_frames(struct work *work)
     }
 }
 
+/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; in the frames' arena. */
+static const char *checkpoint_path(const struct gm_frames *frames)
+{
+    const struct gm_schedule *schedule = frames->schedule;
+    return schedule->shards > 1
+               ? gm_arena_print(frames->arena, "%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
+                                schedule->shard, schedule->shards)
+               : gm_arena_print(frames->arena, "%s/%s.checkpoint", frames->folder, frames->name);
+}
+
 static void open_sinks(struct work *work)
 {
     char message[GM_MESSAGE];
@@ -246,7 +268,7 @@ static void open_sinks(struct work *work)
     }
     gm_frames_open(&work->frames, options->arena, &work->schedule, folder, work->name, &work->provenance);
     if (gm_checkpoint_fits(work->request)) {
-        work->checkpoint = gm_checkpoint_path(&work->frames);
+        work->checkpoint = checkpoint_path(&work->frames);
     }
     const char *pattern =
         gm_arena_print(options->arena, "%s/%s-%%06ld.png", work->frames.folder, work->frames.name);
@@ -272,10 +294,20 @@ static void make_all(struct gm_arena *arena, void *data)
     make_frames(work);
 }
 
+/* The last of our frames, or -1. */
+static long last_frame(const struct gm_schedule *schedule)
+{
+    long frame = schedule->count - 1;
+    while (frame >= 0 && !gm_schedule_is_ours(schedule, frame)) {
+        frame--;
+    }
+    return frame;
+}
+
 /* The failures of lanes in the shard's last frame, painted now or read from its file. */
 static char *last_failures(const struct work *work)
 {
-    const long last = gm_schedule_last(&work->schedule);
+    const long last = last_frame(&work->schedule);
     if (work->schedule.still || last < 0 || !work->frames.there[last]) {
         char *text = gm_provenance_failures(lanes_of(work), work->request->count);
         return gm_arena_keep(work->options->arena, text, free);
@@ -288,7 +320,7 @@ static char *last_failures(const struct work *work)
 /* Prints the warnings on the last frame's lanes, if it was painted now. */
 static void tell_warnings(const struct work *work)
 {
-    const long last = gm_schedule_last(&work->schedule);
+    const long last = last_frame(&work->schedule);
     const bool painted = work->schedule.still || last < 0 || !work->frames.there[last];
     for (size_t i = 0; painted && i < work->request->count; i++) {
         char sentence[GM_MESSAGE];
@@ -353,6 +385,17 @@ static int close_sinks(struct work *work, bool painted, char *message)
     return written && moving;
 }
 
+/* Removes the frames, and then the folder if it is empty. */
+static void remove_frames(const struct gm_frames *frames)
+{
+    for (long frame = 0; frame < frames->schedule->count; frame++) {
+        const size_t mark = gm_arena_mark(frames->arena);
+        unlink(gm_frames_path(frames, frame));
+        gm_arena_release(frames->arena, mark);
+    }
+    rmdir(frames->folder);
+}
+
 static int paint_all(struct work *work)
 {
     char message[GM_MESSAGE] = "";
@@ -378,7 +421,7 @@ static int paint_all(struct work *work)
         unlink(work->checkpoint);
     }
     if (options->pace.movie && !options->out) {
-        gm_frames_remove(&work->frames);
+        remove_frames(&work->frames);
     }
     return status;
 }
@@ -482,6 +525,5 @@ int gm_command_render(const struct gm_options *options)
     }
     gm_command_confirm(options, request);
     gm_catch_interrupts();
-    return gm_finish(
-        render(request, options, gm_arena_print(options->arena, "%s-render", request->scene->name)));
+    return render(request, options, gm_arena_print(options->arena, "%s-render", request->scene->name));
 }

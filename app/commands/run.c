@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/commands/commands.h"
 #include "app/data/save.h"
@@ -129,10 +130,7 @@ static void print_equilibria(struct gm_row *row, const struct gm_portrait *portr
         for (size_t k = 0; k < 2; k++) {
             gm_row_list(&values, NULL, equilibrium->eigenvalues[k], 2);
         }
-        gm_row_close(&values);
-        gm_row_close(&item);
     }
-    gm_row_close(&list);
 }
 
 static void print_json(const struct outcome *outcome, const struct gm_options *options)
@@ -173,7 +171,6 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         snprintf(key, sizeof key, "%s_max", told(outcome, i)->key);
         gm_row_number(&observables, key, outcome->maxima[i], 17);
     }
-    gm_row_close(&observables);
     struct gm_portrait portrait;
     const char *none = NULL;
     if (has_portrait(lane) && lane->scene->portrait(lane, &portrait)) {
@@ -195,7 +192,6 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
                 gm_row_text(&reasons, told(outcome, i)->key, missing(outcome, i));
             }
         }
-        gm_row_close(&reasons);
     }
     if (options->state) {
         char layout[128];
@@ -205,7 +201,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         /* null: a lost tracer */
         gm_row_list(&row, "state", gm_run_state(run), lane->problem.n * lane->problem.m);
     }
-    printf("}\n");
+    gm_row_close(&row, "\n");
 }
 
 /* Prints a line for each equilibrium: its place, kind and eigenvalues. */
@@ -304,11 +300,10 @@ static bool differs(const struct gm_request *request, const struct gm_parameter 
    memory. */
 static char *front_of(const struct gm_request *request, size_t lane, enum gm_row_form form)
 {
-    char *text = NULL;
-    size_t size = 0;
+    struct gm_text_stream writing;
     const struct gm_scene *scene = request->scene;
     struct gm_lane_spec *spec = &request->lanes[lane];
-    FILE *stream = open_memstream(&text, &size);
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -327,8 +322,7 @@ static char *front_of(const struct gm_request *request, size_t lane, enum gm_row
             gm_meta_parameter(&cells, row, gm_lane_owner(spec, row));
         }
     }
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }
 
 /* A row of the history, unless one before it could not be written. */
@@ -421,9 +415,8 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
 static bool only_saves(const struct outcome *outcome)
 {
     const struct outputs *outputs = outcome->outputs;
-    const struct gm_lane *lane = outcome->drive.lane;
     return outputs->save && !outputs->csv && !outputs->tracks && !outcome->maxima &&
-           gm_save_takes_many(outputs->save) && gm_rows_all(&outputs->rows, lane->run);
+           gm_save_takes_many(outputs->save) && gm_rows_all(&outputs->rows, outcome->drive.lane->run);
 }
 
 enum { TRACED = 1024 /* steps at once */ };
@@ -718,7 +711,7 @@ static void tell(const struct outcome *outcome, const struct gm_options *options
     if (options->profile && !outputs->unprofiled) {
         outputs->unprofiled = !write_profile(options->profile, outcome, message);
         if (outputs->unprofiled && !is_standard_output(options->profile)) {
-            gm_complain("%s", message); /* gm_finish reports faults of standard output */
+            gm_complain("%s", message); /* faults of standard output are reported at the end */
         }
     }
 }
@@ -913,5 +906,5 @@ int gm_command_run(const struct gm_options *options)
     }
     status = close_outputs(&outputs, opened, status);
     errno = outputs.csv_why != 0 ? outputs.csv_why : errno;
-    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
 }

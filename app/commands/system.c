@@ -466,34 +466,45 @@ static const char *equation_fact(const struct report *report)
     return text;
 }
 
-/* Calls `put` for every fact of the structure; `of` is the component that it is about, or "". */
-static void each_fact(const struct report *report,
-                      void (*put)(struct gm_row *row, const char *word, const char *of, bool holds,
-                                  const char *reason),
-                      struct gm_row *row)
+/* Puts a fact, of a component or "", into an object of JSON or, with NULL, prints it. */
+static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
+{
+    char key[80];
+    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
+    if (row) {
+        struct gm_row fact = gm_row_open(row, key, '}');
+        gm_row_put(&fact, "holds %d, reason %s", holds, reason);
+    } else {
+        gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
+    }
+}
+
+/* Puts or prints every fact of the structure. */
+static void put_facts(const struct report *report, struct gm_row *row)
 {
     const struct gm_user_system *system = &report->system;
     for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
-        put(row, "linear part", system->variables[i].name, has_linear(report, i), linear_fact(report, i));
+        put_fact(row, "linear part", system->variables[i].name, has_linear(report, i),
+                 linear_fact(report, i));
     }
     if (system->kind == GM_MATRICES) {
-        put(row, "multisymplectic", "", true, form_fact);
+        put_fact(row, "multisymplectic", "", true, form_fact);
     }
     if (report->recognised.name) {
-        put(row, "equation", "", true, equation_fact(report));
+        put_fact(row, "equation", "", true, equation_fact(report));
     }
     if (system->alone) {
-        put(row, "lagrangian", "", true,
-            "the sum of the cells' Lagrangian, which does not depend on the time");
+        put_fact(row, "lagrangian", "", true,
+                 "the sum of the cells' Lagrangian, which does not depend on the time");
     }
     for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD && !system->alone; i++) {
-        put(row, field_facts[i][0], "", true, field_facts[i][1]);
+        put_fact(row, field_facts[i][0], "", true, field_facts[i][1]);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
         char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
         if (reason) {
-            put(row, gm_fact_word(fact), "", finding->holds, reason);
+            put_fact(row, gm_fact_word(fact), "", finding->holds, reason);
         }
         free(reason);
     }
@@ -502,17 +513,10 @@ static void each_fact(const struct report *report,
         const struct gm_stiffness stiffness =
             gm_stiffness_of(&report->problem, start_of(report), until->value);
         if (stiffness.stiff) {
-            put(row, "stiff", "", true,
-                gm_arena_print(report->arena, "rates %.2g to %.2g", stiffness.slow, stiffness.fast));
+            put_fact(row, "stiff", "", true,
+                     gm_arena_print(report->arena, "rates %.2g to %.2g", stiffness.slow, stiffness.fast));
         }
     }
-}
-
-static void print_fact(struct gm_row *unused, const char *word, const char *of, bool holds,
-                       const char *reason)
-{
-    (void)unused, (void)of;
-    gm_print_wrapped(reason, printf("  %-16s %-4s", word, holds ? "yes" : "no"), 23);
 }
 
 /* The rates of a part as equations, without those that are 0; parameters have their values. */
@@ -540,32 +544,31 @@ static const char *part_equations(const struct report *report, const char *part)
                                : gm_arena_print(report->arena, "%.*s ...", (int)most, text);
 }
 
-/* Calls `put` for every part that has a name, with the way in which its flow is computed, and its equations. */
-static void each_part(const struct report *report,
-                      void (*put)(struct gm_row *row, const char *name, const char *flow), struct gm_row *row)
+/* Puts or prints every part that has a name, with the way in which its flow is computed, and its equations. */
+static void put_parts(const struct report *report, struct gm_row *row)
 {
     const struct gm_ode *ode = gm_system_is_field(&report->system) ? NULL : gm_ode_of(&report->problem);
     for (const char *const *name = ode && ode->parts ? ode->parts->names : NULL; name && *name; name++) {
         const char *flow = gm_part_flow(&report->problem, *name);
-        if (flow || (size_t)(name - ode->parts->names) < ode->parts->given) {
-            put(row, *name,
-                gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
-                               part_equations(report, *name)));
+        if (!flow && (size_t)(name - ode->parts->names) >= ode->parts->given) {
+            continue;
+        }
+        const char *told =
+            gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
+                           part_equations(report, *name));
+        if (row) {
+            gm_row_text(row, *name, told);
+        } else {
+            gm_print_wrapped(told, printf("  %-16s ", *name), 19);
         }
     }
-}
-
-static void print_part(struct gm_row *unused, const char *name, const char *flow)
-{
-    (void)unused;
-    gm_print_wrapped(flow, printf("  %-16s ", name), 19);
 }
 
 static void print_parts(const struct report *report)
 {
     if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
         printf("\nparts\n");
-        each_part(report, print_part, NULL);
+        put_parts(report, NULL);
     }
 }
 
@@ -575,7 +578,7 @@ static void print_facts(const struct report *report)
     if (report->system.kind == GM_POISSON) {
         printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
     }
-    each_fact(report, print_fact, NULL);
+    put_facts(report, NULL);
 }
 
 /* True for a scheme of the system; nodes alone have those of free nodes. */
@@ -636,7 +639,6 @@ static void put_parameters(struct gm_row *row, const struct gm_user_system *syst
     for (size_t i = system->parameters; i < system->velocities; i++) {
         gm_row_number(&parameters, system->variables[i].name, system->variables[i].value, 17);
     }
-    gm_row_close(&parameters);
 }
 
 static void put_values(struct gm_row *row, const struct report *report)
@@ -655,7 +657,6 @@ static void put_values(struct gm_row *row, const struct report *report)
             gm_row_number(&starts, system->variables[i].name, start[i], 17);
         }
     }
-    gm_row_close(&starts);
 }
 
 /* Puts the lines of a section, with their left sides in an object. */
@@ -672,7 +673,6 @@ static void put_section(struct gm_row *row, const char *key, const struct report
             put_formula(&list, section == CONSTRAINT ? NULL : line->left, report, line->node);
         }
     }
-    gm_row_close(&list);
 }
 
 static void put_equations(struct gm_row *row, const struct report *report)
@@ -689,16 +689,6 @@ static void put_equations(struct gm_row *row, const struct report *report)
             gm_row_text(&invariants, kept_name(report, &system->items[i]), certainty(system->items[i].check));
         }
     }
-    gm_row_close(&invariants);
-}
-
-static void put_fact(struct gm_row *row, const char *word, const char *of, bool holds, const char *reason)
-{
-    char key[80];
-    snprintf(key, sizeof key, *of ? "linear_part_%.60s" : "%.60s", *of ? of : word);
-    struct gm_row fact = gm_row_open(row, key, '}');
-    gm_row_put(&fact, "holds %d, reason %s", holds, reason);
-    gm_row_close(&fact);
 }
 
 static void print_json(const struct report *report, const struct gm_file *file)
@@ -710,24 +700,20 @@ static void print_json(const struct report *report, const struct gm_file *file)
     put_values(&row, report);
     put_equations(&row, report);
     struct gm_row structure = gm_row_open(&row, "structure", '}');
-    each_fact(report, put_fact, &structure);
-    gm_row_close(&structure);
+    put_facts(report, &structure);
     struct gm_row parts = gm_row_open(&row, "parts", '}');
-    each_part(report, gm_row_text, &parts);
-    gm_row_close(&parts);
+    put_parts(report, &parts);
     const struct gm_scheme *fitting[GM_FITTING_SCHEMES], *same[GM_FITTING_SCHEMES];
     size_t count = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         if (count < GM_FITTING_SCHEMES && fits(report, gm_scheme_at(i))) {
+            same[count] = gm_scheme_same_as(gm_scheme_at(i), &report->problem);
             fitting[count++] = gm_scheme_at(i);
         }
     }
-    for (size_t i = 0; i < count; i++) {
-        same[i] = gm_scheme_same_as(fitting[i], &report->problem);
-    }
     gm_list_put_schemes(&row, fitting, same, count);
     gm_list_put_file(&row, file, system->source);
-    printf("}\n");
+    gm_row_close(&row, "\n");
 }
 
 /* Simplifies a derived formula for printing; a typed formula stays. */
@@ -955,24 +941,17 @@ void gm_list_put_schemes(struct gm_row *row, const struct gm_scheme *const *sche
     for (size_t i = 0; i < count; i++) {
         gm_row_text(&list, NULL, schemes[i]->name);
     }
-    gm_row_close(&list);
     struct gm_row all = gm_row_open(row, "same_as", '}');
     for (size_t i = 0; i < count; i++) {
         const struct gm_scheme *one = same[i] ? same[i] : schemes[i];
-        struct gm_row names;
-        bool begun = false;
+        struct gm_row names = {0};
         for (size_t k = 0; k < count; k++) {
             if (k != i && (schemes[k] == one || same[k] == one)) {
-                names = begun ? names : gm_row_open(&all, schemes[i]->name, ']');
+                names = names.begun ? names : gm_row_open(&all, schemes[i]->name, ']');
                 gm_row_text(&names, NULL, schemes[k]->name);
-                begun = true;
             }
         }
-        if (begun) {
-            gm_row_close(&names);
-        }
     }
-    gm_row_close(&all);
 }
 
 void gm_list_put_file(struct gm_row *row, const struct gm_file *file, const char *source)
@@ -1078,9 +1057,7 @@ static void put_found(struct report *report, const struct found *found)
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
                    (int)invariant->degree, "exact", found_name(report, invariants, i));
-        gm_row_close(&one);
     }
-    gm_row_close(&list);
     gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)invariants->unwritten,
                (int)invariants->independent);
     list = gm_row_open(&row, "symmetries_found", ']');
@@ -1088,11 +1065,9 @@ static void put_found(struct report *report, const struct found *found)
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "formula %s, scaling %.17g", symmetry_formula(report, &found->symmetries[i]),
                    found->symmetries[i].scaling);
-        gm_row_close(&one);
     }
-    gm_row_close(&list);
     gm_row_put(&row, "symmetries_unwritten %i", (int)found->symmetries_unwritten);
-    printf("}\n");
+    gm_row_close(&row, "\n");
 }
 
 static int list_invariants(const struct gm_options *options, struct report *report)
@@ -1106,7 +1081,7 @@ static int list_invariants(const struct gm_options *options, struct report *repo
         gm_symmetries_find(&report->system, options->arena, &found.symmetries, &found.symmetries_unwritten);
     gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* A listed system of forms. */
@@ -1158,34 +1133,23 @@ static bool listed_form(const struct listed_forms *listed, size_t i, struct list
     return true;
 }
 
-/* Calls `take` for each invariant, with its rate along the equations. */
-static void each_drift(const struct listed_forms *listed,
-                       void (*take)(const char *name, double drift, void *data), void *data)
+/* Prints for each invariant its rate along the equations: in a list of JSON or, with NULL, in words. */
+static void tell_drifts(const struct listed_forms *listed, struct gm_row *list)
 {
+    const double kept_below = 1e-10; /* a rate that is round-off */
     const struct gm_form_model *model = &listed->model;
     for (size_t i = 0; i < model->observed_count; i++) {
         const struct gm_system_item *item = &model->system->items[model->observed_item[i]];
-        if (item->word == GM_WORD_INVARIANT) {
-            take(item->name, gm_form_drift(&listed->problem, i), data);
+        const double drift = item->word == GM_WORD_INVARIANT ? gm_form_drift(&listed->problem, i) : NAN;
+        if (list && item->word == GM_WORD_INVARIANT) {
+            struct gm_row one = gm_row_open(list, NULL, '}');
+            gm_row_put(&one, "name %s, kept %d, rate %.17g", item->name, drift < kept_below, drift);
+        } else if (item->word == GM_WORD_INVARIANT) {
+            printf(
+                "%s: the equations on this mesh %s it (its rate along them is %.1e of it, at a random state)\n",
+                item->name, drift < kept_below ? "keep" : "change", drift);
         }
     }
-}
-
-static const double kept_below = 1e-10; /* a rate that is round-off */
-
-static void print_drift(const char *name, double drift, void *data)
-{
-    (void)data;
-    printf("%s: %s (its rate along them is %.1e of it, at a random state)\n", name,
-           drift < kept_below ? "the equations on this mesh keep it" : "the equations on this mesh change it",
-           drift);
-}
-
-static void put_drift(const char *name, double drift, void *data)
-{
-    struct gm_row one = gm_row_open(data, NULL, '}');
-    gm_row_put(&one, "name %s, kept %d, rate %.17g", name, drift < kept_below, drift);
-    gm_row_close(&one);
 }
 
 static void print_mesh(const struct listed_forms *listed)
@@ -1205,7 +1169,7 @@ static void print_mesh(const struct listed_forms *listed)
         printf("factor: %s, %s, %zu entries, %.3g MB\n", factor->matrix,
                factor->symmetric ? "Cholesky" : "LU", factor->entries, factor->megabytes);
     }
-    each_drift(listed, print_drift, NULL);
+    tell_drifts(listed, NULL);
 }
 
 static void print_forms(const struct listed_forms *listed, bool longer)
@@ -1250,19 +1214,15 @@ static void put_mesh(struct gm_row *row, const struct listed_forms *listed)
                 (const double[]){(double)gm_form_betti(complex, 0), (double)gm_form_betti(complex, 1),
                                  (double)gm_form_betti(complex, 2)},
                 3);
-    gm_row_close(&mesh);
     struct gm_row list = gm_row_open(row, "factors", ']');
     for (size_t i = 0; i < listed->factor_count; i++) {
         const struct gm_form_factor *factor = &listed->factors[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
         gm_row_put(&one, "matrix %s, symmetric %d, entries %i, megabytes %.17g", factor->matrix,
                    factor->symmetric, (int)factor->entries, factor->megabytes);
-        gm_row_close(&one);
     }
-    gm_row_close(&list);
     list = gm_row_open(row, "invariants", ']');
-    each_drift(listed, put_drift, &list);
-    gm_row_close(&list);
+    tell_drifts(listed, &list);
 }
 
 static void put_forms(const struct listed_forms *listed, const struct gm_file *file)
@@ -1280,18 +1240,14 @@ static void put_forms(const struct listed_forms *listed, const struct gm_file *f
         if (form.equation) {
             gm_row_text(&one, "equation", form.equation + strlen("a "));
         }
-        gm_row_close(&one);
     }
-    gm_row_close(&list);
     list = gm_row_open(&row, "splits", ']');
     for (size_t i = 0; i < system->n && listed->model.split > 0;) {
         struct gm_row group = gm_row_open(&list, NULL, ']');
         for (const size_t end = i < listed->model.split ? listed->model.split : system->n; i < end; i++) {
             gm_row_text(&group, NULL, system->variables[i].name);
         }
-        gm_row_close(&group);
     }
-    gm_row_close(&list);
     if (listed->problem.parameters) {
         if (listed->model.field_count > 0) {
             gm_row_put(&row, "linear %d", gm_ode_of(&listed->problem)->stiff);
@@ -1299,7 +1255,7 @@ static void put_forms(const struct listed_forms *listed, const struct gm_file *f
         put_mesh(&row, listed);
     }
     gm_list_put_file(&row, file, system->source);
-    printf("}\n");
+    gm_row_close(&row, "\n");
 }
 
 /* Lists the type of every form; with --long or --json also how the fields split, the mesh, the factors, and which
@@ -1328,7 +1284,7 @@ static int list_forms(const struct gm_options *options, struct report *report, c
     } else {
         print_forms(listed, options->longer);
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* Opens the problem and derives what is printed. */
@@ -1380,5 +1336,5 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
     }
     gm_arena_need(options->arena,
                   !gm_memory_was_short()); /* nor does a formula without a text count as a long one */
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }

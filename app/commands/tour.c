@@ -25,9 +25,9 @@ int gm_list_tours(const struct gm_options *options)
     for (size_t i = 0; i < count; i++) {
         if (options->json) {
             struct gm_row row = gm_row_begin(stdout);
-            gm_row_put(&row, "tour %s, title %s, about %s", tours[i].name, tours[i].title,
-                       tours[i].about ? tours[i].about : "");
-            printf(",\"steps\":%zu}\n", tours[i].count);
+            gm_row_put(&row, "tour %s, title %s, about %s, steps %i", tours[i].name, tours[i].title,
+                       tours[i].about ? tours[i].about : "", (int)tours[i].count);
+            gm_row_close(&row, "\n");
             continue;
         }
         gm_say("%-16s %s (%zu step%s)", tours[i].name, tours[i].title, tours[i].count,
@@ -38,7 +38,7 @@ int gm_list_tours(const struct gm_options *options)
     if (message[0]) {
         gm_complain("%s", message);
     }
-    return gm_finish(message[0] ? GM_EXIT_FILE : GM_EXIT_OK);
+    return message[0] ? GM_EXIT_FILE : GM_EXIT_OK;
 }
 
 static void print_text(const char *word, const char *text)
@@ -63,7 +63,7 @@ static int list_steps(const struct gm_tour *tour)
             printf("   %-7s geomint %s\n", "shows", step->show);
         }
     }
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 /* A movie has light or dark paper. */
@@ -79,7 +79,7 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
                                     .look = options->look};
     output.look.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
     gm_catch_interrupts();
-    return gm_finish(gm_tour_render(tour, &output));
+    return gm_tour_render(tour, &output);
 }
 
 /* Opens the explorer, or draws it into a file together with the command that repeats it. */
@@ -133,7 +133,7 @@ int gm_command_tour(const struct gm_options *options)
 int gm_command_terminal(const struct gm_options *options)
 {
     gm_command_end_if(options, options->arguments.count > 0, GM_EXIT_USAGE, "terminal takes no arguments");
-    return gm_finish(gm_terminal_report(&options->terminal));
+    return gm_terminal_report(&options->terminal);
 }
 
 int gm_command_tui(const struct gm_options *options)

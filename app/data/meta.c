@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "app/base/arguments.h"
 #include "app/output/row.h"
 
 void gm_meta_parameter(struct gm_row *row, const struct gm_parameter *parameter, const void *owner)
@@ -30,7 +31,6 @@ void gm_meta_parameters(struct gm_row *row, const struct gm_lane *lane)
     for (const struct gm_parameter *const *set = lane->scheme->family->parameters; set && *set; set++) {
         gm_row_text(&parameters, (*set)->key, gm_parameter_format(*set, &lane->settings, text, sizeof text));
     }
-    gm_row_close(&parameters);
 }
 
 void gm_meta_source(struct gm_row *row, const struct gm_scene *scene)
@@ -45,9 +45,8 @@ void gm_meta_source(struct gm_row *row, const struct gm_scene *scene)
 
 char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *sentence)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -60,7 +59,6 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
                (double)lane->run->steps);
     struct gm_row units = gm_row_open(&row, "units", '}');
     gm_row_put(&units, "t %s", lane->scene->time ? lane->scene->time : "");
-    fputs("}}", stream);
-    fclose(stream);
-    return text;
+    gm_row_close(&row, "");
+    return gm_stream_end(&writing);
 }

@@ -91,11 +91,29 @@ static void open_prompt(struct gm_explorer *explorer, const struct key *key)
     }
 }
 
+/* Returns the first scheme after the selected lane's that no lane uses; NULL: no scheme fits. */
+static const struct gm_scheme *first_choice(const struct gm_shot *shot)
+{
+    size_t own = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        if (shot->schemes[i] == shot->lanes[shot->selected].scheme) {
+            own = i;
+        }
+    }
+    for (size_t i = 1; i < shot->scheme_count; i++) {
+        const struct gm_scheme *scheme = shot->schemes[(own + i) % shot->scheme_count];
+        if (!gm_shot_uses(shot, scheme)) {
+            return scheme;
+        }
+    }
+    return shot->scheme_count > 0 ? shot->schemes[own] : NULL;
+}
+
 static void choose_scheme(struct gm_explorer *explorer, const struct key *key)
 {
     explorer->face.choosing = (enum gm_choosing)key->meaning;
     explorer->face.typed[0] = '\0';
-    explorer->face.choice = gm_chooser_first(explorer->open.shot);
+    explorer->face.choice = first_choice(explorer->open.shot);
 }
 
 static void choose_parameter(struct gm_explorer *explorer, const struct key *key)
@@ -466,9 +484,22 @@ static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event
     pointer->row = event->row;
 }
 
+/* Returns the newest hit at a cell of the screen, or NULL. */
+static const struct gm_hit *hit_at(const struct gm_hits *hits, int column, int row)
+{
+    for (size_t i = hits->count; i-- > 0;) {
+        const struct gm_hit *hit = &hits->hits[i];
+        if (column >= hit->column && column < hit->column + hit->width && row >= hit->row &&
+            row < hit->row + hit->height) {
+            return hit;
+        }
+    }
+    return NULL;
+}
+
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    const struct gm_hit *hit = hit_at(&explorer->screen.hits, event->column, event->row);
     if (explorer->face.loss && !(hit && hit->kind == GM_HIT_KEY)) { /* like any key but q */
         explorer->face.loss = NULL;
         return;
@@ -522,7 +553,7 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
 
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    const struct gm_hit *hit = hit_at(&explorer->screen.hits, event->column, event->row);
     const bool up = event->kind == GM_MOUSE_UP;
     const bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
                        explorer->face.choosing != GM_CHOOSE_NOTHING;

@@ -364,9 +364,8 @@ static void play(struct gm_explorer *explorer, const struct gm_arguments *words)
 
 static bool write_text(const struct gm_cells *cells, const char *path, char *message)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     for (int i = 0; stream && i < cells->rows * cells->columns; i++) {
         char bytes[GM_TEXT_BYTES];
         const uint32_t glyph = cells->cells[i].glyph;
@@ -375,9 +374,10 @@ static bool write_text(const struct gm_cells *cells, const char *path, char *mes
             putc('\n', stream);
         }
     }
-    const bool made = (stream && fclose(stream) == 0) || gm_refuse(message, "There is not enough memory.");
+    char *text = gm_stream_end(&writing);
+    const bool made = text || gm_refuse(message, "There is not enough memory.");
     const bool placed = made && gm_folder_make_for(path, message);
-    const int error = placed ? gm_temporary_write(path, text, size) : 0;
+    const int error = placed ? gm_temporary_write(path, text, writing.size) : 0;
     free(text);
     return placed && (error == 0 || gm_temporary_refuse(message, path, strerror(error)));
 }

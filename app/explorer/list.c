@@ -3,7 +3,6 @@
 #include "app/explorer/events.h"
 
 #include <curses.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

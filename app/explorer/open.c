@@ -9,10 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/explorer/surface/surface.h"
 #include "app/explorer/view/view.h"
 #include "app/grid/grid.h"
-#include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "core/basics.h"
 #include "core/model/equations.h"
@@ -224,9 +224,8 @@ static char *sweep_words(const char *line)
 {
     static const char measure[] = "measure=";
     struct gm_arguments typed = {0};
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = gm_typed_split(&typed, line) ? open_memstream(&text, &size) : NULL;
+    struct gm_text_stream writing = {0};
+    FILE *stream = gm_typed_split(&typed, line) ? gm_stream_begin(&writing) : NULL;
     if (stream && typed.count > 0 && strchr(typed.words[0], '=')) {
         fputs("system ", stream);
     }
@@ -238,7 +237,7 @@ static char *sweep_words(const char *line)
         fputc(' ', stream);
     }
     gm_arguments_close(&typed);
-    return stream && fclose(stream) == 0 ? text : NULL;
+    return gm_stream_end(&writing);
 }
 
 static bool check_map(const char *line, struct gm_typed_fault *fault)

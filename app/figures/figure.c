@@ -461,13 +461,6 @@ enum gm_source gm_statement_source(const struct gm_figure_job *job, size_t index
     return job->published->variant ? GM_OF_VARIANT : GM_OF_DOCUMENT;
 }
 
-const char *gm_source_name(enum gm_source source)
-{
-    static const char *const names[] = {
-        [GM_OF_DOCUMENT] = "document", [GM_OF_OURS] = "ours", [GM_OF_VARIANT] = "variant"};
-    return names[source];
-}
-
 struct gm_figure_sum gm_figures_sum(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes,
                                     size_t count)
 {

@@ -106,7 +106,6 @@ const char *gm_figure_path(const struct gm_figure_output *output, const char *na
 /* The source of a statement, as in JSON. */
 enum gm_source { GM_OF_DOCUMENT, GM_OF_OURS, GM_OF_VARIANT, GM_SOURCES };
 enum gm_source gm_statement_source(const struct gm_figure_job *job, size_t index);
-const char *gm_source_name(enum gm_source source);
 
 /* The number of figures made, and the verdicts on their statements. */
 struct gm_figure_sum {

@@ -8,7 +8,7 @@
 
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
-#include "app/grid/hooks.h"
+#include "app/grid/grid.h"
 #include "app/native/engine.h"
 #include "app/words/drive.h"
 #include "app/words/words.h"
@@ -106,10 +106,8 @@ static void put_cells(struct gm_row *row, const struct gm_grid *grid, const stru
         if (line->cells[k].tried) {
             struct gm_row cell = gm_row_open(&list, NULL, '}');
             grid->row->put_cell(&cell, grid, &line->cells[k], 0);
-            gm_row_close(&cell);
         }
     }
-    gm_row_close(&list);
 }
 
 static void put_line(const struct gm_grid *grid, const struct gm_grid_line *line)
@@ -121,8 +119,7 @@ static void put_line(const struct gm_grid *grid, const struct gm_grid_line *line
     if (grid->row->put_end) {
         grid->row->put_end(&row, grid, line);
     }
-    gm_row_close(&row);
-    putchar('\n');
+    gm_row_close(&row, "\n");
 }
 
 void gm_grid_print(const struct gm_grid *grid, bool json)
@@ -422,8 +419,7 @@ void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm
 {
     if (count > 0) {
         gm_mark_line(picture, panel, style, points, count, false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, points,
-                       count);
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, points, count);
         gm_panel_key(picture, panel, style, name);
     }
 }

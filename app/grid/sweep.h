@@ -39,11 +39,12 @@ struct gm_sweep {
     struct gm_arena *arena; /* owns the texts */
     const struct gm_scene *scene;
     struct gm_words words;
-    char *arguments;         /* "SCENE key=value ...", which gives the same sweep */
-    char *head;              /* the names of the columns, as a line */
-    char *measure;           /* the list of observables, if it was given; else NULL */
-    size_t count;            /* runs */
-    size_t shard, shards;    /* the shard to make: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
+    char *arguments;      /* "SCENE key=value ...", which gives the same sweep */
+    char *head;           /* the names of the columns, as a line */
+    size_t status, index; /* the numbers of the cells with the status and with a value's index; 0: none has */
+    char *measure;        /* the list of observables, if it was given; else NULL */
+    size_t count;         /* runs */
+    size_t shard, shards; /* the shard to make: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
     struct gm_chosen chosen; /* observables, one column each */
     /* --values: a run has a row for each of its last `kept` values, else one row */
     const char *values, *at; /* "x:100", and the word of `place`; NULL: one row */
@@ -62,8 +63,7 @@ struct gm_sweep_options {
 void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct gm_arguments *arguments,
                    const struct gm_sweep_options *options, int *status);
 
-/* The number of the cell with the index of a value, for gm_csv_lines; 0: a run has one row. */
-size_t gm_sweep_index_cell(const struct gm_sweep *sweep);
+enum { GM_SWEEP_COSTS = 7 }; /* cells before the observables: status, warning, t, steps, ... */
 
 /* The number of runs of the shard, and the number of its k-th run. */
 size_t gm_sweep_shard_runs(const struct gm_sweep *sweep);

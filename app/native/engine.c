@@ -16,7 +16,6 @@
 
 #include "app/native/cache.h"
 #include "core/basics.h"
-#include "core/kind.h"
 #include "core/memory.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/kernel/loops.h"

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/words/drive.h"
+#include "app/base/arguments.h"
 #include "core/arena.h"
 #include "render/files/deflate.h"
 #include "render/files/regular_file.h"
@@ -245,19 +245,17 @@ bool gm_checkpoint_fits(const struct gm_request *request)
 
 static char *identify(const struct gm_request *request, size_t numbers)
 {
-    char *text = NULL;
-    size_t size = 0;
+    struct gm_text_stream writing;
     unsigned program = 0;
     const struct gm_scene *scene = request->scene;
-    FILE *stream = gm_program_checksum(&program) ? open_memstream(&text, &size) : NULL;
+    FILE *stream = gm_program_checksum(&program) ? gm_stream_begin(&writing) : NULL;
     if (!stream) {
         return NULL;
     }
     fprintf(stream, "run %s, %zu numbers, program %08x\n", scene->mark ? scene->mark : scene->name, numbers,
             program);
     gm_provenance_put_lanes(stream, request, true);
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }
 
 struct gm_pause *gm_pause_open(const struct gm_request *request, size_t numbers, const char *from,
@@ -309,15 +307,6 @@ bool gm_pause_has_rows(const struct gm_pause *pause)
 }
 
 /* ---- renders ---- */
-
-const char *gm_checkpoint_path(const struct gm_frames *frames)
-{
-    const struct gm_schedule *schedule = frames->schedule;
-    return schedule->shards > 1
-               ? gm_arena_print(frames->arena, "%s/%s-%ld-of-%ld.checkpoint", frames->folder, frames->name,
-                                schedule->shard, schedule->shards)
-               : gm_arena_print(frames->arena, "%s/%s.checkpoint", frames->folder, frames->name);
-}
 
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,
                          const struct gm_lane *const *lanes, size_t count, char *message)

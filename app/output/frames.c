@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/output/folder.h"
 #include "core/arena.h"
@@ -110,15 +109,6 @@ bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame)
     return frame / block % schedule->shards == schedule->shard - 1;
 }
 
-long gm_schedule_last(const struct gm_schedule *schedule)
-{
-    long frame = schedule->count - 1;
-    while (frame >= 0 && !gm_schedule_is_ours(schedule, frame)) {
-        frame--;
-    }
-    return frame;
-}
-
 static const char *identify(struct gm_arena *arena, const struct gm_schedule *schedule,
                             const struct gm_provenance *provenance)
 {
@@ -194,25 +184,4 @@ void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const stru
         look_at(frames, dirfd(files), entry->d_name);
     }
     gm_arena_release(arena, mark);
-}
-
-long gm_frames_missing(const struct gm_frames *frames, bool last)
-{
-    long found = -1;
-    for (long frame = 0; frame < frames->schedule->count && (last || found < 0); frame++) {
-        if (!frames->there[frame] && gm_schedule_is_ours(frames->schedule, frame)) {
-            found = frame;
-        }
-    }
-    return found;
-}
-
-void gm_frames_remove(const struct gm_frames *frames)
-{
-    for (long frame = 0; frame < frames->schedule->count; frame++) {
-        const size_t mark = gm_arena_mark(frames->arena);
-        unlink(gm_frames_path(frames, frame));
-        gm_arena_release(frames->arena, mark);
-    }
-    rmdir(frames->folder);
 }

@@ -33,8 +33,6 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
 double gm_schedule_time(const struct gm_schedule *schedule, long frame);
 
 bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame);
-/* The last of our frames, or -1. */
-long gm_schedule_last(const struct gm_schedule *schedule);
 
 /* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Their metadata names the frame, the render and
    the build of the program; a complete picture with the expected metadata is kept. */
@@ -55,12 +53,6 @@ void gm_frames_open(struct gm_frames *frames, struct gm_arena *arena, const stru
 /* The metadata of frame `frame` under GM_KEY_FRAME, and its path, in the arena. */
 const char *gm_frames_text(const struct gm_frames *frames, long frame);
 const char *gm_frames_path(const struct gm_frames *frames, long frame);
-
-/* The first of our missing frames, or the last; -1: none is missing. */
-long gm_frames_missing(const struct gm_frames *frames, bool last);
-
-/* Removes the frames, and then the folder if it is empty. */
-void gm_frames_remove(const struct gm_frames *frames);
 
 /* Checkpoints: the states of lanes in a file, from which a killed or ended run is resumed. */
 
@@ -103,9 +95,6 @@ bool gm_pause_note(struct gm_pause *pause, size_t index, const struct gm_lane *l
 bool gm_pause_write(const struct gm_pause *pause, const char *path, char *message);
 
 /* ---- the checkpoint of a render after one of its frames, in the frames' folder during the render ---- */
-
-/* FOLDER/NAME.checkpoint, or NAME-I-of-N.checkpoint of a shard; in the frames' arena. */
-const char *gm_checkpoint_path(const struct gm_frames *frames);
 
 /* Replaces the file as gm_pause_write does. */
 bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long frame,

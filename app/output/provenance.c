@@ -48,14 +48,12 @@ static bool is_whole(struct gm_provenance *provenance)
 /* A text that `put` writes; malloc'ed. Returns NULL when out of memory. */
 static char *text_of(void (*put)(FILE *stream, const void *data), const void *data)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (stream) {
         put(stream, data);
-        fclose(stream);
     }
-    return text;
+    return gm_stream_end(&writing);
 }
 
 static void put_schemes(FILE *stream, const void *data)

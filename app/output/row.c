@@ -41,8 +41,23 @@ static void put_number(FILE *stream, double value)
     }
 }
 
+static struct gm_row *outermost_of(struct gm_row *row)
+{
+    return row->outermost ? row->outermost : row;
+}
+
+/* Ends what is open in a row. */
+static void end_inner(struct gm_row *row)
+{
+    struct gm_row *outermost = outermost_of(row);
+    while (outermost->open > row->depth) {
+        fputc(outermost->ends[--outermost->open], row->stream);
+    }
+}
+
 static void begin(struct gm_row *row, const char *key)
 {
+    end_inner(row);
     fputs(row->begun ? "," : "", row->stream);
     row->begun = true;
     if (row->form == GM_ROW_HEAD) {
@@ -50,6 +65,16 @@ static void begin(struct gm_row *row, const char *key)
     } else if (row->form == GM_ROW_JSON && key) {
         put_text(row->stream, key);
         fputc(':', row->stream);
+    }
+}
+
+/* A cell of CSV that is a text, in quotes if it needs them. */
+static void put_cell(FILE *stream, const char *text)
+{
+    if (strpbrk(text, ",\"")) {
+        gm_csv_put_quoted(stream, text);
+    } else {
+        fputs(text, stream);
     }
 }
 
@@ -61,7 +86,7 @@ void gm_row_text(struct gm_row *row, const char *key, const char *text)
     } else if (row->form == GM_ROW_JSON) {
         put_text(row->stream, text);
     } else if (row->form == GM_ROW_CSV) {
-        gm_csv_put_text(row->stream, text);
+        put_cell(row->stream, text);
     }
 }
 
@@ -117,19 +142,23 @@ void gm_row_list(struct gm_row *row, const char *key, const double *values, size
 struct gm_row gm_row_begin(FILE *stream)
 {
     fputc('{', stream);
-    return (struct gm_row){.stream = stream, .form = GM_ROW_JSON, .end = '}'};
+    return (struct gm_row){.stream = stream, .form = GM_ROW_JSON};
 }
 
 struct gm_row gm_row_open(struct gm_row *row, const char *key, char end)
 {
+    struct gm_row *outermost = outermost_of(row);
     begin(row, key);
     fputc(end == '}' ? '{' : '[', row->stream);
-    return (struct gm_row){.stream = row->stream, .form = GM_ROW_JSON, .end = end};
+    outermost->ends[outermost->open++] = end;
+    return (struct gm_row){
+        .stream = row->stream, .form = GM_ROW_JSON, .depth = outermost->open, .outermost = outermost};
 }
 
-void gm_row_close(const struct gm_row *row)
+void gm_row_close(struct gm_row *outermost, const char *after)
 {
-    fputc(row->end, row->stream);
+    end_inner(outermost);
+    fprintf(outermost->stream, "}%s", after);
 }
 
 void gm_csv_put_quoted(FILE *stream, const char *text)
@@ -140,15 +169,6 @@ void gm_csv_put_quoted(FILE *stream, const char *text)
         fputc(*text, stream);
     }
     fputc('"', stream);
-}
-
-void gm_csv_put_text(FILE *stream, const char *text)
-{
-    if (strpbrk(text, ",\"")) {
-        gm_csv_put_quoted(stream, text);
-    } else {
-        fputs(text, stream);
-    }
 }
 
 const char *gm_csv_cell(const char *row, size_t index)

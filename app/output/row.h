@@ -9,11 +9,17 @@
 
 enum gm_row_form { GM_ROW_HEAD, GM_ROW_CSV, GM_ROW_JSON };
 
+enum { GM_ROW_DEPTH = 8 };
 struct gm_row {
     FILE *stream;
     enum gm_row_form form;
     bool begun; /* a cell precedes the next one */
-    char end;   /* the closing bracket in JSON */
+    /* JSON: the number of brackets around its cells, without the outermost; the outermost object, NULL: it is that;
+       and of the outermost the open brackets' ends */
+    int depth;
+    struct gm_row *outermost;
+    int open;
+    char ends[GM_ROW_DEPTH];
 };
 
 /* Cells by their keys: "scheme %s, dt %.17g, steps %.0f, order %i, holds %d", where %s is a text, %.Ng a number
@@ -27,14 +33,13 @@ void gm_row_number(struct gm_row *row, const char *key, double value, int digits
 
 /* JSON only: numbers as one cell. */
 void gm_row_list(struct gm_row *row, const char *key, const double *values, size_t count);
-/* An object or a list, which ends with '}' or ']': its cells are put between open and close. Cells of a
-   list have the key NULL. */
+/* An object or a list, which ends with '}' or ']' when the next cell is put into what it is in. Cells of a list have
+   the key NULL. The outermost object is not copied before it is closed; a text follows it. */
 struct gm_row gm_row_begin(FILE *stream); /* the outermost object */
 struct gm_row gm_row_open(struct gm_row *row, const char *key, char end);
-void gm_row_close(const struct gm_row *row);
+void gm_row_close(struct gm_row *outermost, const char *after);
 
-/* A cell of CSV that is a text, in quotes if it needs them. */
-void gm_csv_put_text(FILE *stream, const char *text);
+/* A cell of CSV that is a text in quotes. */
 void gm_csv_put_quoted(FILE *stream, const char *text);
 /* The cell number `index` of a row, and the text after it; "" if the row has fewer. */
 const char *gm_csv_cell(const char *row, size_t index);

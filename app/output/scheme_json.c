@@ -20,12 +20,11 @@ void gm_scheme_put(FILE *stream, const struct gm_scheme *scheme)
             gm_row_text(&claims, NULL, gm_claims[bit].key);
         }
     }
-    gm_row_close(&claims);
     if (scheme->family->kind == &gm_kind_ode) {
         gm_row_put(&row, "tangent %s", gm_tangent_word(scheme));
     }
     gm_row_put(&row, "formula %s, reference %s", scheme->formula, scheme->reference);
-    gm_row_close(&row);
+    gm_row_close(&row, "");
 }
 
 static void put_stability(struct gm_row *theory, const struct gm_theory_stability *stability)
@@ -36,7 +35,6 @@ static void put_stability(struct gm_row *theory, const struct gm_theory_stabilit
     if (!stability->oscillator) {
         gm_row_put(&row, "a_stable %d, l_stable %d", stability->a_stable, stability->l_stable);
     }
-    gm_row_close(&row);
 }
 
 static void put_theory(struct gm_row *certificate, const struct gm_theory *theory)
@@ -53,7 +51,6 @@ static void put_theory(struct gm_row *certificate, const struct gm_theory *theor
     } else {
         gm_row_text(&row, "stability", NULL);
     }
-    gm_row_close(&row);
 }
 
 void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, const char *system)
@@ -80,10 +77,8 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
             if (measure->reason) {
                 gm_row_put(&claim, "reason %s", measure->reason);
             }
-            gm_row_close(&claim);
         }
     }
-    gm_row_close(&properties);
     if (system) {
         struct gm_row list = gm_row_open(&row, "invariants", ']');
         for (size_t i = 0; i < certificate->followed_count; i++) {
@@ -94,9 +89,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
             if (followed->status != GM_OK) {
                 gm_row_put(&one, "reason %s", gm_status_name(followed->status));
             }
-            gm_row_close(&one);
         }
-        gm_row_close(&list);
     }
     if (scheme->base) {
         struct gm_row conserves = gm_row_open(&row, "conserves", '}');
@@ -105,20 +98,17 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
             gm_row_number(&conserves, certificate->held[i].name, measure->measured ? measure->defect : NAN,
                           17);
         }
-        gm_row_close(&conserves);
         struct gm_row given_up = gm_row_open(&row, "given_up", ']');
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
             if ((scheme->base->claims & ~scheme->claims) >> bit & 1) {
                 gm_row_text(&given_up, NULL, gm_claims[bit].key);
             }
         }
-        gm_row_close(&given_up);
     }
     if (certificate->same.other) {
         struct gm_row same = gm_row_open(&row, "same_as", '}');
         gm_row_put(&same, "scheme %s, difference %.17g, problem %s", certificate->same.other->name,
                    certificate->same.difference, certificate->same.problem);
-        gm_row_close(&same);
     }
     if (certificate->theory.known) {
         put_theory(&row, &certificate->theory);
@@ -136,6 +126,5 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
             gm_row_number(&measured, gm_claims[bit].key, measure->measured ? measure->defect : NAN, 17);
         }
     }
-    gm_row_close(&measured);
-    gm_row_close(&row);
+    gm_row_close(&row, "");
 }

@@ -884,19 +884,3 @@ size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme 
     }
     return count;
 }
-
-const struct gm_scheme *gm_session_unused(const struct gm_session *session)
-{
-    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
-    const size_t count = gm_session_fits(session, schemes);
-    for (size_t i = 0; i < count; i++) {
-        size_t k = 0;
-        while (k < session->count && session->lanes[k]->scheme != schemes[i]) {
-            k++;
-        }
-        if (k == session->count) {
-            return schemes[i];
-        }
-    }
-    return NULL;
-}

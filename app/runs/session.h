@@ -106,8 +106,6 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message);
 /* All lanes in one panel, or a panel for each. */
 bool gm_session_overlay(struct gm_session *session, char *message);
 
-/* The first scheme, in the scene's order, that fits and that no lane has, or NULL. */
-const struct gm_scheme *gm_session_unused(const struct gm_session *session);
 /* The fitting schemes, the scene's preferred ones first; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
 

@@ -3,7 +3,6 @@
 #include "app/tours/tour.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "app/base/arguments.h"

@@ -13,7 +13,7 @@
 #include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "app/tours/tour.h"
-#include "app/words/scheme.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 #include "core/expression/lines.h"
 #include "core/expression/nearest.h"

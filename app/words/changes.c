@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "app/base/arguments.h"
+#include "app/words/names.h"
 #include "app/words/request.h"
-#include "app/words/scheme.h"
 #include "core/expression/number.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -59,9 +59,8 @@ char *gm_request_format(const struct gm_request *request)
     if (request->arguments) {
         return strdup(request->arguments);
     }
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -69,8 +68,7 @@ char *gm_request_format(const struct gm_request *request)
     struct gm_arguments arguments = {0};
     if (request->scene->lanes && !gm_arguments_split(&arguments, request->scene->lanes)) {
         gm_arguments_close(&arguments);
-        fclose(stream);
-        free(text);
+        free(gm_stream_end(&writing));
         return NULL;
     }
     gm_arguments_put_scene(stream, request->scene);
@@ -84,8 +82,7 @@ char *gm_request_format(const struct gm_request *request)
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        const bool always = has_key(&arguments, row->key);
-        lists += format_key(stream, request, row, always ? NULL : row->standard);
+        lists += format_key(stream, request, row, has_key(&arguments, row->key) ? NULL : row->standard);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);
@@ -94,15 +91,13 @@ char *gm_request_format(const struct gm_request *request)
         fprintf(stream, " overlay=%s", request->overlay ? "yes" : "no");
     }
     gm_arguments_close(&arguments);
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }
 
 char *gm_changes_format(const struct gm_request *request, char between, char end)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -111,8 +106,7 @@ char *gm_changes_format(const struct gm_request *request, char between, char end
         fprintf(stream, "%zu%c%" PRId64 "%c%s%c", change->lane, between, change->step, between, change->text,
                 end);
     }
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }
 
 bool gm_change_add(struct gm_request *request, size_t lane, int64_t step, const char *text)

@@ -10,7 +10,6 @@
 #include "app/base/arguments.h"
 #include "app/native/engine.h"
 #include "app/words/names.h"
-#include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
@@ -85,10 +84,10 @@ static void apply(struct gm_arena *arena, struct gm_request *request, struct gm_
         return;
     }
     if (strcmp(list->key, "steps") == 0) {
-        if (!gm_number_parse(text, &steps) || !(steps >= 0 && steps <= (double)GM_MOST_STEPS) ||
-            steps != floor(steps)) {
-            gm_arena_refuse(arena, "steps=%.60s is not a whole number from 0 to 1e15", text);
-        }
+        gm_arena_refuse_if(arena,
+                           !gm_number_parse(text, &steps) ||
+                               !(steps >= 0 && steps <= (double)GM_MOST_STEPS) || steps != floor(steps),
+                           "steps=%.60s is not a whole number from 0 to 1e15", text);
         spec->steps = (int64_t)steps;
         return;
     }
@@ -188,9 +187,7 @@ static void settle_time(struct gm_arena *arena, const struct gm_scene *scene, st
         const double exactly = (timing->until - t0) / timing->dt, whole = round(exactly);
         shortened = gm_ends_exactly(spec->scheme) && fabs(exactly - whole) > 1e-9 * fmax(1, fabs(exactly));
         const double steps = shortened && exactly > whole ? whole + 1 : whole;
-        if (whole < 0) {
-            gm_arena_refuse(arena, "until=%g lies before the start, t = %g", timing->until, t0);
-        }
+        gm_arena_refuse_if(arena, whole < 0, "until=%g lies before the start, t = %g", timing->until, t0);
         if (!(steps <= (double)GM_MOST_STEPS)) {
             gm_arena_refuse(arena, "until / dt is %.3g steps; 1e15 is the most", steps);
         }
@@ -230,9 +227,7 @@ static void check_settings(struct gm_arena *arena, const struct gm_request *requ
                 names = gm_arena_print(arena, "%s%s%s", names, names[0] ? ", " : "", fitting[k]->name);
             }
         }
-        if (names[0]) {
-            gm_arena_refuse(arena, "none of these schemes takes %s=; these do: %s", key, names);
-        }
+        gm_arena_refuse_if(arena, names[0], "none of these schemes takes %s=; these do: %s", key, names);
         gm_arena_refuse(arena, "no scheme that fits scene %s takes %s=", scene->name, key);
     }
 }
@@ -339,10 +334,9 @@ static double rate_of(struct gm_arena *arena, const struct gm_request *request, 
     const double t = lane->run->t;
     gm_run_advance(lane->run, STEPS);
     const double rate = (double)(lane->run->evaluations - before) / fabs(lane->run->t - t);
-    if (!(rate > 0) || !isfinite(rate)) {
-        gm_arena_refuse(arena, "equal=cost compares evaluations, and %s counts none over its first %d steps",
-                        lane->scheme->name, STEPS);
-    }
+    gm_arena_refuse_if(arena, !(rate > 0) || !isfinite(rate),
+                       "equal=cost compares evaluations, and %s counts none over its first %d steps",
+                       lane->scheme->name, STEPS);
     gm_arena_release(arena, mark);
     return rate;
 }
@@ -359,10 +353,9 @@ static void equal_cost(struct gm_arena *arena, struct gm_request *request, size_
     enum { ROUNDS = 4 };
     for (int round = 0; round < ROUNDS && index != like; round++) {
         timing->dt *= rate_of(arena, request, index) / wanted;
-        if (!(timing->dt >= row->lowest && timing->dt <= row->highest)) {
-            gm_arena_refuse(arena, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
-                            timing->dt, spec->scheme->name, row->lowest, row->highest);
-        }
+        gm_arena_refuse_if(arena, !(timing->dt >= row->lowest && timing->dt <= row->highest),
+                           "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g", timing->dt,
+                           spec->scheme->name, row->lowest, row->highest);
     }
     struct gm_shown *shown = &spec->shown;
     char *name = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
@@ -436,10 +429,9 @@ static void make_lanes(struct gm_arena *arena, void *data)
     size_t count = 0;
     gm_arena_check(arena, gm_words_count(words, GM_MOST_REQUESTED, &count, message), message);
     request->overlay = gm_words_chosen(words, "overlay");
-    if (request->overlay && count > GM_LANE_COLOURS) {
-        gm_arena_refuse(arena, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
-                        GM_LANE_COLOURS, count);
-    }
+    gm_arena_refuse_if(arena, request->overlay && count > GM_LANE_COLOURS,
+                       "overlay=yes takes up to %d lanes, a colour for each; these are %zu", GM_LANE_COLOURS,
+                       count);
     request->lanes = calloc(count, sizeof *request->lanes);
     gm_arena_need(arena, request->lanes);
     if (steps && until) {
@@ -459,9 +451,8 @@ static void make_lanes(struct gm_arena *arena, void *data)
     }
     const bool equal =
         gm_words_chosen(words, "equal"); /* each step size so that the cost is the first scheme's */
-    if (equal && steps) {
-        gm_arena_refuse(arena, "equal=cost scales the steps up to until=; steps= cannot be given with it");
-    }
+    gm_arena_refuse_if(arena, equal && steps,
+                       "equal=cost scales the steps up to until=; steps= cannot be given with it");
     for (size_t k = 0; k < count && equal; k++) {
         equal_cost(arena, request, k, first_scheme(words, k));
         settle_time(arena, request->scene, &request->lanes[k], false);
@@ -652,8 +643,7 @@ void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters)
 double gm_request_steps(const struct gm_request *request, size_t index)
 {
     const struct gm_lane_spec *spec = &request->lanes[index];
-    const bool adaptive = spec->scheme && spec->scheme->family->adaptive;
-    return adaptive ? 0 : (double)spec->steps;
+    return spec->scheme && spec->scheme->family->adaptive ? 0 : (double)spec->steps;
 }
 
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* User-defined schemes: read from files and words, and identified by their text. */
-#include "app/words/scheme.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "app/base/arguments.h"
 #include "app/base/files.h"
 #include "app/base/interrupt.h"
 #include "app/words/names.h"
@@ -241,13 +241,12 @@ char *gm_scheme_words_from(const char *path, const char *word)
 {
     static const char key[] = "scheme=";
     const char *ending = gm_file_endings[GM_FILE_SCHEME], *slash = strrchr(path, '/'), *before = key;
-    char *text = NULL;
-    size_t size = 0;
+    struct gm_text_stream writing;
     struct gm_span rest = {sizeof key - 1, strlen(word)}, name;
     if (!slash || strncmp(word, key, sizeof key - 1) != 0 || !strstr(word, ending)) {
         return strdup(word);
     }
-    FILE *stream = open_memstream(&text, &size);
+    FILE *stream = gm_stream_begin(&writing);
     while (stream && rest.begin < rest.end) {
         name = (struct gm_span){rest.begin, gm_span_until(word, rest, ",")};
         const size_t length = name.end - name.begin, letters = strlen(ending);
@@ -258,10 +257,7 @@ char *gm_scheme_words_from(const char *path, const char *word)
         before = ",";
         rest.begin = name.end + 1;
     }
-    if (stream) {
-        fclose(stream);
-    }
-    return text;
+    return gm_stream_end(&writing);
 }
 
 bool gm_scheme_check(const char *name, size_t *at, char *message)

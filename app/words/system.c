@@ -539,11 +539,12 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
                                         "lanes", "parameter", "start",   "spread",      NULL};
     const struct gm_parameter *rows[LANES];
     bool put[LANES];
-    char *text = NULL, number[GM_TEXT_SIZE];
-    size_t size = 0, at = 0, from = 0;
+    char number[GM_TEXT_SIZE];
+    size_t at = 0, from = 0;
     struct gm_text_line line;
     struct gm_fault fault;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     for (size_t i = 0; i < LANES; i++) {
         rows[i] = gm_scene_parameter(scene, lines[i]);
         put[i] = rows[i] && is_changed(rows[i], parameters);
@@ -589,5 +590,5 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
                     gm_parameter_format(rows[i], parameters, number, sizeof number));
         }
     }
-    return stream && fclose(stream) == 0 ? text : NULL;
+    return gm_stream_end(&writing);
 }

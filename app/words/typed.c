@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/words/names.h"
-#include "app/words/scheme.h"
 #include "app/words/system.h"
 #include "app/words/words.h"
 
@@ -114,9 +114,8 @@ static size_t place_of(const char *line, int word, size_t offset)
 
 char *gm_typed_join(const struct gm_arguments *words)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     for (int i = 0; stream && i < words->count; i++) {
         const char *word = words->words[i], *quote = strchr(word, '\'') ? "\"" : "'";
         struct gm_arguments alone = {0}; /* blanks or quotes may split or change the word */
@@ -126,7 +125,7 @@ char *gm_typed_join(const struct gm_arguments *words)
         quote = same ? "" : quote;
         fprintf(stream, "%s%s%s%s", i > 0 ? " " : "", quote, word, quote);
     }
-    return stream && fclose(stream) == 0 ? text : NULL;
+    return gm_stream_end(&writing);
 }
 
 /* ---- the meaning of the words ---- */

@@ -574,9 +574,7 @@ static void refuse_words(const struct typing *typing)
         }
         rates = gm_arena_print(typing->arena, "%s%s", rates, as_rates(typing, word));
     }
-    if (rates[0]) {
-        gm_arena_refuse(typing->arena, "a derivative is typed as a rate:%.300s", rates);
-    }
+    gm_arena_refuse_if(typing->arena, rates[0], "a derivative is typed as a rate:%.300s", rates);
     gm_arena_refuse(typing->arena,
                     "scene system needs a formula: H='p^2/2 + q^4/4', or L=, or rate='x = -x' for "
                     "each component");

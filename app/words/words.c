@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/words/names.h"
 #include "core/aliases.h"
 #include "core/arena.h"
@@ -111,9 +112,7 @@ static void parse_range(struct gm_arena *arena, struct gm_range *range, const ch
             fault = fault_of(range, whole);
         }
     }
-    if (fault) {
-        gm_arena_refuse(arena, "%s=%.80s: %s", key, text, fault);
-    }
+    gm_arena_refuse_if(arena, fault, "%s=%.80s: %s", key, text, fault);
 }
 
 const struct gm_common_key gm_common_keys[] = {
@@ -160,9 +159,7 @@ static void add_value(struct gm_arena *arena, struct gm_word *list, const char *
     const size_t blanks = strspn(text, " "); /* scheme='rk4, verlet' */
     text += blanks < length ? blanks : length;
     length -= blanks < length ? blanks : length;
-    if (length == 0) {
-        gm_arena_refuse(arena, "%s= has an empty value", list->key);
-    }
+    gm_arena_refuse_if(arena, length == 0, "%s= has an empty value", list->key);
     if (list->piece_count == GM_MOST_PIECES) {
         gm_arena_refuse(arena, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
                         GM_MOST_PIECES, 2 * GM_MOST_PIECES);
@@ -229,15 +226,12 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
 {
     enum { SHORT = 8 };
-    const struct gm_word_piece *piece = piece_of(list, &index);
-    if (piece->range.count == 0) {
-        return piece->text;
-    }
-    const double value = value_in(&piece->range, index);
-    if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
+    const char *word = gm_word_value(list, index, text);
+    const double value = strtod(word, NULL);
+    if (word == text && strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) { /* one of a range */
         snprintf(text, GM_TEXT_SIZE, "%.6g", value);
     }
-    return text;
+    return word;
 }
 
 static bool has_digits_alone(const char *text)
@@ -363,9 +357,7 @@ const struct gm_word *gm_words_find(const struct gm_words *words, const char *ke
 /* A list of values for a key, behind the others. */
 static struct gm_word *new_list(struct gm_words *words, const char *key)
 {
-    if (words->count == GM_MOST_WORDS) {
-        gm_arena_refuse(words->arena, "more than %d keys", GM_MOST_WORDS);
-    }
+    gm_arena_refuse_if(words->arena, words->count == GM_MOST_WORDS, "more than %d keys", GM_MOST_WORDS);
     snprintf(words->refused, sizeof words->refused, "%s", key);
     words->list[words->count] = (struct gm_word){.key = key};
     return &words->list[words->count++];
@@ -382,9 +374,7 @@ static void read_word(struct gm_words *words, const struct gm_scene *scene, cons
         gm_words_assignment(scene, word, next && !strchr(next, '=') ? next : NULL, meant, sizeof meant);
         gm_arena_refuse(arena, "\"%.60s\" is not of the form key=value%s", word, meant);
     }
-    if (has_orders(word)) {
-        gm_arena_refuse(arena, "\"%.60s\" holds a character that cannot be shown", word);
-    }
+    gm_arena_refuse_if(arena, has_orders(word), "\"%.60s\" holds a character that cannot be shown", word);
     struct gm_word *list = new_list(words, gm_arena_print(arena, "%.*s", (int)(equals - word), word));
     if (!known_key(scene, list->key)) {
         const char *near = key_meant(scene, list->key);
@@ -393,19 +383,17 @@ static void read_word(struct gm_words *words, const struct gm_scene *scene, cons
         gm_arena_refuse(arena, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
                         near ? "; did you mean " : "; see geomint list ", near ? near : typed);
     }
-    if (gm_words_find(words, list->key) != list) {
-        gm_arena_refuse(arena, "%s= is given twice", list->key);
-    }
+    gm_arena_refuse_if(arena, gm_words_find(words, list->key) != list, "%s= is given twice", list->key);
     const bool whole = is_whole(gm_scene_parameter(scene, list->key), equals + 1);
     for (const char *at = equals + 1, *comma = equals; comma; at = comma + 1) {
         comma = whole ? NULL : next_comma(at);
         add_value(arena, list, at, comma ? (size_t)(comma - at) : strlen(at));
         char number[48];
         const size_t last = list->piece_count - 1;
-        if (begins_with_zero(list->pieces[last].text) &&
-            gm_words_decimal_comma(list, last, number, sizeof number)) {
-            gm_arena_refuse(arena, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
-        }
+        gm_arena_refuse_if(arena,
+                           begins_with_zero(list->pieces[last].text) &&
+                               gm_words_decimal_comma(list, last, number, sizeof number),
+                           "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
         read_range(arena, list, scene);
         if (!comma) {
             break;
@@ -439,8 +427,7 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
             return gm_refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
                              words->list[i].key, count, *runs);
         }
-        const bool many = count > most || (!words->zip && *runs > most / count);
-        if (many) {
+        if (count > most || (!words->zip && *runs > most / count)) {
             return gm_refuse(message, "that makes more than %zu %s", most,
                              most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
         }
@@ -514,11 +501,10 @@ static void check_choices(const struct gm_words *words)
     for (size_t i = 0; i < gm_common_key_count; i++) {
         const struct gm_common_key *key = &gm_common_keys[i];
         const struct gm_word *word = key->choices[0] ? gm_words_find(words, key->name) : NULL;
-        if (word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
-                                         strcmp(word->pieces[0].text, key->choices[1]) != 0))) {
-            gm_arena_refuse(words->arena, "%s= is one of: %s, %s", key->name, key->choices[0],
-                            key->choices[1]);
-        }
+        gm_arena_refuse_if(words->arena,
+                           word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
+                                                        strcmp(word->pieces[0].text, key->choices[1]) != 0)),
+                           "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
     }
 }
 
@@ -580,9 +566,8 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
 
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -597,6 +582,5 @@ char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
             gm_arguments_put(stream, scheme ? gm_scheme_word(scheme) : typed);
         }
     }
-    fclose(stream);
-    return text;
+    return gm_stream_end(&writing);
 }

@@ -253,7 +253,7 @@ for scene, word, sentence in (
         ("kepler", "projected(dopri5; H)", "column 11: dopri5 cannot be a part of a step"),
         ("kepler", "composition(projected(rk4; H); 1)", "column 13: projected(rk4; H) cannot be a part of a step"),
         ("kepler", "relaxed(rk4; constraints)", "column 14: constraints are held alone"),
-        ("kepler", "projected(rk4; Lx)", "needs an invariant Lx (there are H, angular_momentum, and those without a name"),
+        ("kepler", "projected(rk4; Lx)", "needs an invariant Lx (there are H, angular_momentum; those that list --invariants finds"),
         ("kepler", "projected(rk4; I3)", "needs an invariant I3"),
         ("kepler", "projected(rk4; r)", "needs a constant r"),
         ("kepler", "projected(rk4; constraints)", "needs constraints"),

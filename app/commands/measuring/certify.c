@@ -17,7 +17,7 @@
 #include "app/output/row.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
-#include "app/words/scheme.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
@@ -346,7 +346,7 @@ static int polish(const struct gm_options *options)
             "scheme %s, polished %s, order %i, conditions %.0f, decimals %.0f, residual_before %.17g, residual %.17g, change %.17g",
             name, out, polish.order, (double)polish.conditions, (double)polish.decimals, polish.before,
             polish.after, polish.change);
-        printf("}\n");
+        gm_row_close(&row, "\n");
     } else {
         printf("%zu condition%s of order %d and of what is claimed: the largest residual was %.1e, is %.1e\n"
                "%zu decimal%s, moved by at most %.1e\n",
@@ -354,7 +354,7 @@ static int polish(const struct gm_options *options)
                polish.after, polish.decimals, gm_plural((double)polish.decimals), polish.change);
     }
     gm_complain("wrote %s", out);
-    return gm_finish(GM_EXIT_OK);
+    return GM_EXIT_OK;
 }
 
 int gm_command_certify(const struct gm_options *options)
@@ -373,7 +373,7 @@ int gm_command_certify(const struct gm_options *options)
         const struct gm_certificate certificate =
             gm_certify_words(options->arena, options->on, &options->arguments, options->end);
         show(options, &certificate, options->on);
-        return gm_finish(chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM));
+        return chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM);
     }
     gm_command_end_if(options, options->arguments.count != 1, GM_EXIT_USAGE,
                       "certify which scheme? A name, or all");
@@ -417,5 +417,5 @@ int gm_command_certify(const struct gm_options *options)
         gm_terminal_listener_clear();
         status = GM_EXIT_INTERRUPTED;
     }
-    return gm_finish(status);
+    return status;
 }

@@ -82,7 +82,7 @@ int gm_command_study(const struct gm_options *options, enum gm_study_kind kind)
     } else if (!gm_interrupted) {
         status = gm_give_up(study->refusal, "%s", message);
     }
-    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
 }
 
 int gm_command_backward(const struct gm_options *options)

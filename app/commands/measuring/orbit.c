@@ -193,10 +193,8 @@ static void print_json(const struct work *work)
     for (size_t i = 0; i < orbit->count; i++) {
         gm_row_list(&list, NULL, (double[]){orbit->multipliers[i], orbit->multipliers[orbit->count + i]}, 2);
     }
-    gm_row_close(&list);
     gm_row_put(&row, "by_structure %i, stability %s", (int)orbit->by_structure, gm_periodic_kind(orbit));
-    gm_row_close(&row);
-    printf("\n");
+    gm_row_close(&row, "\n");
 }
 
 /* The multipliers as a text: "285.4037, 1, 1, 0.0035", or pairs "0.5 ± 0.8i". */
@@ -317,5 +315,5 @@ int gm_command_orbit(const struct gm_options *options)
         status = options->save ? save(work) : GM_EXIT_OK;
         status = status == GM_EXIT_OK && (options->output || options->out) ? paint(work) : status;
     }
-    return gm_finish(status);
+    return status;
 }

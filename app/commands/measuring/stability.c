@@ -10,8 +10,7 @@
 #include "app/commands/commands.h"
 #include "app/grid/grid.h"
 #include "app/output/row.h"
-#include "app/output/say.h"
-#include "app/words/scheme.h"
+#include "app/words/names.h"
 #include "core/arena.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
@@ -197,7 +196,7 @@ static void print_limits(const struct region *region, bool json)
         } else {
             gm_row_put(&row, "limit %.17g", up);
         }
-        printf("}\n");
+        gm_row_close(&row, "\n");
     } else if (!plane) {
         printf("%s: stable on the oscillator up to h ω = %.4g%s\n", scheme->name, up,
                up == reach ? " at least" : "");
@@ -239,7 +238,7 @@ static int find_region(const struct gm_options *options)
     status = gm_command_chart(
         options, "stability",
         &(struct gm_chart){.name = name, .data = &region, .draw = draw_region, .write = write_region});
-    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
 }
 
 int gm_command_stability(const struct gm_options *options)

@@ -170,7 +170,7 @@ int gm_command_sweep(const struct gm_options *options)
     char message[GM_MESSAGE];
     struct gm_sweep *sweep = gm_arena_take(options->arena, 1, sizeof *sweep);
     if (options->join) {
-        return gm_finish(join(options, sweep));
+        return join(options, sweep);
     }
     check(options);
     gm_sweep_open(options->arena, sweep, &options->arguments,
@@ -183,5 +183,5 @@ int gm_command_sweep(const struct gm_options *options)
                       is_drawn(options) && !options->pace.shards && !gm_sweep_is_drawable(sweep, message),
                       GM_EXIT_USAGE, "%s; --table FILE.csv alone makes none", message);
     confirm(sweep, options);
-    return gm_finish(make(sweep, options, path));
+    return make(sweep, options, path);
 }

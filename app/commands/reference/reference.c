@@ -148,16 +148,6 @@ static void put_meaning(const char *help, const char *unit)
     put_cell(unit);
 }
 
-static void put_theory(const struct gm_scheme *scheme)
-{
-    const struct gm_theory theory = gm_scheme_theory(scheme);
-    if (theory.known) {
-        printf("By theory of ");
-        gm_theory_print(&theory, "");
-        printf(".\n\n");
-    }
-}
-
 /* fits[scene * scheme_count + scheme] */
 static void put_scheme(size_t index, const bool *fits)
 {
@@ -175,7 +165,12 @@ static void put_scheme(size_t index, const bool *fits)
     printf("Claims: %s.\n\n```text\n%s\n```\n\n%s.\n\n",
            gm_catalogue_claims(scheme->claims, false, claims, sizeof claims), scheme->formula,
            scheme->reference);
-    put_theory(scheme);
+    const struct gm_theory theory = gm_scheme_theory(scheme);
+    if (theory.known) {
+        printf("By theory of ");
+        gm_theory_print(&theory, "");
+        printf(".\n\n");
+    }
     const char *comma = "Fits ";
     for (size_t s = 0; s < gm_scene_count(); s++) {
         if (fits[s * gm_scheme_count() + index]) {

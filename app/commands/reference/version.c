@@ -17,7 +17,6 @@
 #include "app/output/say.h"
 #include "core/ode/kernel/loops.h"
 #include "render/pixels/canvas.h"
-#include "render/vector/vector.h"
 
 static void print_libraries(void)
 {

@@ -2,7 +2,6 @@
 /* The screen as cells, and writing into a rectangle of it: text, sliders, hints, pictures. */
 #include "app/explorer/surface/surface.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,32 +67,6 @@ void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t 
     cell->foreground = gm_theme_colour(sheet->face->theme, role);
     cell->background = gm_theme_colour(sheet->face->theme, GM_PAPER);
     cell->bold = bold;
-}
-
-void gm_sheet_number(double value, char *text, size_t size)
-{
-    char digits[40];
-    if (!isfinite(value)) {
-        snprintf(text, size, "–");
-        return;
-    }
-    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter than with its zeros */
-        snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
-    } else {
-        snprintf(digits, sizeof digits, "%.3g", value);
-    }
-    /* a true minus sign, and no zeros or plus signs to fill an exponent */
-    text[0] = '\0';
-    for (const char *c = digits; *c && strlen(text) + 4 < size; c++) {
-        if (*c == 'e') {
-            gm_append(text, size, c[1] == '-' ? "e−" : "e");
-            c += 1 + strspn(c + 2, "0");
-        } else if (*c == '-') {
-            gm_append(text, size, "−");
-        } else {
-            gm_append(text, size, "%c", *c);
-        }
-    }
 }
 
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen)
@@ -275,18 +248,6 @@ void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, 
     hit.width = width;
     hit.height = hit.height > 0 ? hit.height : 1;
     sheet->hits->hits[sheet->hits->count++] = hit;
-}
-
-const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row)
-{
-    for (size_t i = hits->count; i-- > 0;) {
-        const struct gm_hit *hit = &hits->hits[i];
-        if (column >= hit->column && column < hit->column + hit->width && row >= hit->row &&
-            row < hit->row + hit->height) {
-            return hit;
-        }
-    }
-    return NULL;
 }
 
 /* ---- the whole screen ---- */

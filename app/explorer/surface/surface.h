@@ -138,8 +138,6 @@ void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const cha
 void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
                     bool bold);
 int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
-/* Formats a number briefly, with a true minus sign. */
-void gm_sheet_number(double value, char *text, size_t size);
 /* Draws a bar with a mark at `position`, 0 to 1, emphasised if `chosen`. */
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen);
 /* Breaks a text of one or several lines at blanks, and long words at commas or anywhere, into at most `rows` rows from (column,
@@ -166,8 +164,6 @@ bool gm_cells_resize(struct gm_cells *cells, int columns, int rows);
 
 /* Makes cells clickable, in one row or in hit.height rows. */
 void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit);
-/* Returns the newest hit at a cell of the screen, or NULL. */
-const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row);
 
 /* A line of text, edited at any place and scrolled sideways if it is too long. */
 

@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/base/arguments.h"
 #include "app/explorer/surface/surface.h"
 #include "app/explorer/terminal/curses.h"
 #include "render/cells/text.h"
@@ -430,16 +431,16 @@ int gm_writer_patience(const struct gm_writer *writer)
 
 void gm_writer_copy(struct gm_writer *writer, const char *text)
 {
-    char *coded = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&coded, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (stream) {
         fputs("\033]52;c;", stream);
         gm_base64_put(text, strlen(text), stream);
         fputs("\a", stream);
-        if (fclose(stream) == 0) {
-            put(writer, coded, size);
-        }
+    }
+    char *coded = gm_stream_end(&writing);
+    if (coded) {
+        put(writer, coded, writing.size);
     }
     free(coded);
 }

@@ -139,23 +139,6 @@ size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,
     return count;
 }
 
-const struct gm_scheme *gm_chooser_first(const struct gm_shot *shot)
-{
-    size_t own = 0;
-    for (size_t i = 0; i < shot->scheme_count; i++) {
-        if (shot->schemes[i] == shot->lanes[shot->selected].scheme) {
-            own = i;
-        }
-    }
-    for (size_t i = 1; i < shot->scheme_count; i++) {
-        const struct gm_scheme *scheme = shot->schemes[(own + i) % shot->scheme_count];
-        if (!gm_shot_uses(shot, scheme)) {
-            return scheme;
-        }
-    }
-    return shot->scheme_count > 0 ? shot->schemes[own] : NULL;
-}
-
 const char *gm_chooser_alias(const struct gm_face *face)
 {
     const struct gm_scheme *choice = face->typed[0] ? face->choice : NULL;

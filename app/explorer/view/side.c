@@ -440,6 +440,33 @@ struct columns {
     int begin, label;
 };
 
+/* Formats a number briefly, with a true minus sign. */
+static void short_number(double value, char *text, size_t size)
+{
+    char digits[40];
+    if (!isfinite(value)) {
+        snprintf(text, size, "–");
+        return;
+    }
+    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter than with its zeros */
+        snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
+    } else {
+        snprintf(digits, sizeof digits, "%.3g", value);
+    }
+    /* a true minus sign, and no zeros or plus signs to fill an exponent */
+    text[0] = '\0';
+    for (const char *c = digits; *c && strlen(text) + 4 < size; c++) {
+        if (*c == 'e') {
+            gm_append(text, size, c[1] == '-' ? "e−" : "e");
+            c += 1 + strspn(c + 2, "0");
+        } else if (*c == '-') {
+            gm_append(text, size, "−");
+        } else {
+            gm_append(text, size, "%c", *c);
+        }
+    }
+}
+
 /* Draws the lanes' values of observable k, or without one (negative) their way back, in a row, under or beside a
    name. */
 static void draw_numbers(const struct gm_sheet *sheet, int row, const struct columns *columns,
@@ -453,7 +480,7 @@ static void draw_numbers(const struct gm_sheet *sheet, int row, const struct col
     }
     for (size_t i = 0; i < columns->count; i++) {
         const struct gm_shot_lane *lane = &columns->shot->lanes[columns->first + i];
-        gm_sheet_number(k < 0 ? lane->from_start : lane->values[k], text, sizeof text);
+        short_number(k < 0 ? lane->from_start : lane->values[k], text, sizeof text);
         gm_sheet_right(sheet, columns->begin + (int)i * VALUE_WIDTH + SPARK_CELLS, row, text,
                        gm_lane_role(lane->shown.colour), false);
     }

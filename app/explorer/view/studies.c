@@ -321,9 +321,8 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
 /* Omits dt, which the study varies. */
 char *gm_studies_words(const struct gm_shot *shot)
 {
-    char *words = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&words, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (!stream) {
         return NULL;
     }
@@ -339,7 +338,7 @@ char *gm_studies_words(const struct gm_shot *shot)
         fputc(' ', stream);
         gm_arguments_put(stream, word);
     }
-    return fclose(stream) == 0 ? words : NULL;
+    return gm_stream_end(&writing);
 }
 
 void gm_studies_begin(struct gm_studies *studies, enum gm_study_kind kind, const struct gm_shot *shot,

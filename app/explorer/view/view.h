@@ -2,7 +2,6 @@
 #ifndef GM_APP_EXPLORER_VIEW_VIEW_H
 #define GM_APP_EXPLORER_VIEW_VIEW_H
 
-#include "app/explorer/background/background.h"
 #include "app/explorer/surface/surface.h"
 #include "app/runs/session.h"
 #include "app/tours/tour.h"
@@ -168,8 +167,6 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
 /* The last entry of the list: a scheme to be typed. */
 extern const struct gm_scheme gm_chooser_user;
 
-/* Returns the first scheme after the selected lane's that no lane uses; NULL: no scheme fits. */
-const struct gm_scheme *gm_chooser_first(const struct gm_shot *shot);
 /* Finds the suitable schemes that match the typed words, the best first, and last the one to be typed.
    Returns their number. */
 size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,

@@ -237,9 +237,9 @@ static void put_changes(FILE *stream, const struct gm_request *log)
    NULL when out of memory. */
 static char *command_of(const struct gm_request *request, const struct gm_session *view, enum gm_theme theme)
 {
-    char *text = NULL, *arguments = gm_request_format(request);
-    size_t size = 0;
-    FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
+    struct gm_text_stream writing = {0};
+    char *arguments = gm_request_format(request);
+    FILE *stream = arguments ? gm_stream_begin(&writing) : NULL;
     if (stream) {
         fputs(view ? "geomint render" : "geomint", stream);
         put_arguments(stream, arguments, view);
@@ -257,10 +257,9 @@ static char *command_of(const struct gm_request *request, const struct gm_sessio
             put_changes(stream, request);
             fprintf(stream, " --theme %s", theme == GM_THEME_DARK ? "dark" : "light");
         }
-        fclose(stream);
     }
     free(arguments);
-    return text;
+    return gm_stream_end(&writing);
 }
 
 /* Returns the command with the lanes' current schemes and parameters, as if they had been typed. The

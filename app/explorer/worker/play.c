@@ -497,9 +497,26 @@ static bool start_from(struct gm_play *play, double x, double y, char *message)
     return true;
 }
 
+/* The first scheme, in the scene's order, that fits and that no lane has, or NULL. */
+static const struct gm_scheme *unused_scheme(const struct gm_session *session)
+{
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
+    const size_t count = gm_session_fits(session, schemes);
+    for (size_t i = 0; i < count; i++) {
+        size_t k = 0;
+        while (k < session->count && session->lanes[k]->scheme != schemes[i]) {
+            k++;
+        }
+        if (k == session->count) {
+            return schemes[i];
+        }
+    }
+    return NULL;
+}
+
 static bool add_lane(struct gm_play *play, char *message)
 {
-    const struct gm_scheme *scheme = gm_session_unused(&play->session);
+    const struct gm_scheme *scheme = unused_scheme(&play->session);
     if (!scheme) {
         return gm_refuse(message, "Every scheme that fits has a lane already.");
     }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/hooks.h"
+#include "app/grid/grid.h"
 #include "app/words/names.h"
 #include "core/arena.h"
 

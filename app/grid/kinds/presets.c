@@ -2,7 +2,7 @@
 /* The kinds of grids, as rows of functions. */
 #include <string.h>
 
-#include "app/grid/hooks.h"
+#include "app/grid/grid.h"
 #include "core/arena.h"
 
 const struct gm_study_row *const gm_study_rows[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = &gm_study_work,

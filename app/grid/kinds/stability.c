@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "app/grid/grid.h"
-#include "app/grid/hooks.h"
 #include "core/arena.h"
 #include "core/expression/number.h"
 
@@ -361,7 +360,7 @@ static void draw_map(const struct gm_grid *grid, const struct gm_grid_line *line
                 }
             }
             if (letter != '.') {
-                gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1},
+                gm_mark_text(picture, panel, (struct gm_style){GM_INK, 1, 1, GM_SOLID},
                              logarithmic ? sqrt(x[v] * x[v + 1]) : (x[v] + x[v + 1]) / 2,
                              sqrt(y[s] * y[next]), GM_ANCHOR_CENTRE, gm_picture_text(picture, "%c", letter))
                     ->fixed = true;

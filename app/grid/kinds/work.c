@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "app/grid/grid.h"
-#include "app/grid/hooks.h"
 #include "app/words/names.h"
 #include "core/arena.h"
 #include "core/basics.h"
@@ -472,8 +471,7 @@ static double error_of(const struct gm_grid *grid, const struct gm_lane *lane, c
         const double *state = gm_run_state(lane->run);
         double error = 0;
         for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
-            const double difference = fabs(state[i] - solution[i]);
-            error = gm_larger(error, difference);
+            error = gm_larger(error, fabs(state[i] - solution[i]));
         }
         return error;
     }

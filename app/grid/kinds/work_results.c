@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/grid/hooks.h"
+#include "app/grid/grid.h"
 #include "core/expression/number.h"
 #include "render/cells/text.h"
 
@@ -211,9 +211,7 @@ void gm_work_put_end(struct gm_row *row, const struct gm_grid *grid, const struc
         gm_row_put(&price, "error %.17g, seconds %.17g", error, gm_work_price(line, error, GM_COST_SECONDS));
         gm_row_number(&price, grid->parameter ? grid->parameter->key : "evaluations",
                       second_price(grid, line, error), 17);
-        gm_row_close(&price);
     }
-    gm_row_close(&prices);
     if (line->reason[0]) {
         gm_row_put(row, "reason %s", line->reason);
     }
@@ -422,13 +420,11 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
     struct names names = {.panel = panel, .line_count = chosen_count};
     struct drawn *lines = names.lines;
     for (size_t i = 0; i < chosen_count; i++) {
-        const size_t most = grid->steps.count * grid->values.count;
-        double *own = gm_picture_memory(picture, 2 * most * sizeof *own);
+        double *own = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *own);
         lines[i] = (struct drawn){own, points_of(chosen[i], cost, own)};
         const struct gm_style style = gm_chart_style(i);
         gm_mark_line(picture, panel, style, own, lines[i].count, false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,
-                       lines[i].count);
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, own, lines[i].count);
     }
     for (size_t i = 0; i < chosen_count; i++) {
         const char *name = chosen[i]->scheme->title;
@@ -437,7 +433,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         }
         const struct place place = name_place(&names, &lines[i], (size_t)gm_text_width(name, false));
         names.taken[names.taken_count++] = place;
-        gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(i), .alpha = 1, .width = 1},
+        gm_mark_text(picture, panel, (struct gm_style){gm_lane_role(i), 1, 1, GM_SOLID},
                      panel->x.low * pow(panel->x.high / panel->x.low, place.left),
                      panel->y.low * pow(panel->y.high / panel->y.low, 0.5 * (place.low + place.high)),
                      GM_ANCHOR_LEFT, name);
@@ -448,10 +444,8 @@ void gm_work_draw(const struct gm_grid *grid, struct gm_picture *picture)
 {
     const struct gm_grid_line *chosen[NAMED] = {NULL};
     const size_t count = choose(grid, chosen);
-    const struct gm_scene *scene = grid->request.scene;
     char sentence[512];
-    picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
-
+    picture->title = gm_picture_text(picture, "%s: what an accuracy costs", grid->request.scene->title);
     picture->subtitle =
         gm_picture_text(picture, "%s at t = %s,  %s%s%zu scheme%s%s", grid->measure_title,
                         gm_step_text(picture, gm_grid_timing(grid)->until), grid->settings,

@@ -42,7 +42,6 @@ struct gm_sweep_chart {
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
     struct dots *dots;         /* per line, of many values a run; else NULL */
     size_t failed;             /* runs, which are left out */
-    size_t status;             /* the number of its cell in a row */
 };
 
 /* Plans the picture's axes and lines; returns false with a sentence if the sweep has none. */
@@ -165,7 +164,7 @@ static void take_values(struct gm_sweep_chart *chart, size_t run, const char *ro
 {
     const struct gm_words *words = &chart->sweep->words;
     const struct gm_word *word = &words->list[chart->keys[0]];
-    const size_t value = gm_sweep_index_cell(chart->sweep) + 2;
+    const size_t value = chart->sweep->index + 2;
     const double x = number_of(word, gm_words_choice(words, chart->keys[0], run));
     for (const char *row = rows; *row; row = strchr(row, '\n') + 1) {
         char *end = NULL;
@@ -179,8 +178,7 @@ static void take_values(struct gm_sweep_chart *chart, size_t run, const char *ro
 
 void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
-    enum { OBSERVABLES = 7 }; /* cells after the status: warning, t, steps, evaluations, solves, seconds */
-    if (strncmp(gm_csv_cell(row, chart->status), "ok,", 3) != 0) {
+    if (strncmp(gm_csv_cell(row, chart->sweep->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
     }
@@ -190,7 +188,7 @@ void gm_sweep_chart_take(struct gm_sweep_chart *chart, size_t run, const char *r
     }
     for (size_t i = 0; i < chart->shown; i++) {
         char *end = NULL;
-        const char *cell = gm_csv_cell(row, chart->status + OBSERVABLES + i);
+        const char *cell = gm_csv_cell(row, chart->sweep->status + GM_SWEEP_COSTS + i);
         const double value = strtod(cell, &end);
         struct bin *bin = &bins_of(
             chart, i, line_of(chart, run))[bin_of(chart, 1, run) * chart->bins[0] + bin_of(chart, 0, run)];
@@ -206,9 +204,6 @@ struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct 
     char message[GM_MESSAGE];
     struct gm_sweep_chart *chart = gm_arena_take(arena, 1, sizeof *chart);
     gm_arena_check(arena, plan(chart, sweep, message), message);
-    for (const char *at = strstr(sweep->head, ",status,"); at > sweep->head; at--) {
-        chart->status += *at == ',';
-    }
     chart->dots = sweep->values ? gm_arena_take(arena, chart->lines, sizeof *chart->dots) : NULL;
     for (size_t line = 0; chart->dots && line < chart->lines; line++) {
         chart->dots[line] = (struct dots){.every = 1};
@@ -221,7 +216,7 @@ struct gm_sweep_chart *gm_sweep_chart_open(struct gm_arena *arena, const struct 
 
 bool gm_sweep_chart_read(struct gm_sweep_chart *chart, const char *path, char *message)
 {
-    struct gm_csv_lines table = {.stream = fopen(path, "r"), .group = gm_sweep_index_cell(chart->sweep)};
+    struct gm_csv_lines table = {.stream = fopen(path, "r"), .group = chart->sweep->index};
     if (!table.stream) {
         return gm_refuse(message, "%.360s could not be read: %s", path, strerror(errno));
     }
@@ -387,8 +382,7 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
         const struct gm_style style = {gm_lane_role(line), 1, 2, gm_lane_dash(line)};
         gm_mark_line(picture, panel, style, points, count, false);
         if (count <= SINGLE) {
-            gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 5},
-                           points, count);
+            gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 5, GM_SOLID}, points, count);
         }
         gm_panel_key(picture, panel, style, line_name(chart, line, picture));
     }

@@ -100,7 +100,7 @@ static void open_table(const struct gm_sweep *sweep, const char *path, const cha
 {
     struct gm_arena *arena = sweep->arena;
     gm_arena_keep(arena, table, gm_csv_close);
-    *table = (struct gm_csv_lines){.stream = fopen(path, "r"), .group = gm_sweep_index_cell(sweep)};
+    *table = (struct gm_csv_lines){.stream = fopen(path, "r"), .group = sweep->index};
     if (!table->stream && errno != ENOENT) {
         gm_arena_refuse(arena, "%.360s could not be read: %s", path, strerror(errno));
     }

@@ -77,15 +77,14 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
 {
     struct gm_arguments arguments;
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? open_memstream(&text, &size) : NULL;
+    struct gm_text_stream writing = {0};
+    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? gm_stream_begin(&writing) : NULL;
     for (int i = 0; stream && i < arguments.count; i++) {
         fputs(i > 0 ? " " : "run ", stream);
         gm_arguments_put_shell(stream, arguments.words[i]);
     }
     gm_arguments_close(&arguments);
-    return stream && fclose(stream) == 0 ? text : NULL;
+    return gm_stream_end(&writing);
 }
 
 /* ---- reading ---- */
@@ -180,13 +179,12 @@ static void check(const struct gm_sweep *sweep, int *status)
 static char *text_of(const struct gm_sweep *sweep, size_t run,
                      void (*put)(const struct gm_sweep *sweep, size_t run, FILE *stream))
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     if (stream) {
         put(sweep, run, stream);
     }
-    return stream && fclose(stream) == 0 ? text : NULL;
+    return gm_stream_end(&writing);
 }
 
 /* Puts the cells before the status of a run, or their names. */
@@ -482,16 +480,8 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, write_head), free);
-}
-
-size_t gm_sweep_index_cell(const struct gm_sweep *sweep)
-{
-    enum { VALUE = 2 }; /* cells after the index */
-    size_t commas = 0;
-    for (const char *at = sweep->head; *at; at++) {
-        commas += *at == ',';
-    }
-    return sweep->values ? commas - VALUE : 0;
+    sweep->status = 1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL);
+    sweep->index = sweep->values ? sweep->status + GM_SWEEP_COSTS + sweep->chosen.count : 0;
 }
 
 size_t gm_sweep_shard_runs(const struct gm_sweep *sweep)
@@ -553,10 +543,7 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
     }
-    char *cells = NULL;
-    size_t size = 0, all = 0;
-    FILE *stream = values ? open_memstream(&cells, &size) : NULL;
-    FILE *rows = stream ? open_memstream(&row->text, &all) : NULL;
+    struct gm_text_stream line = {0}, rows = {0};
     if (!status) {
         const bool lost = gm_memory_refusals() != refusals || !ended;
         status = gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status);
@@ -565,17 +552,17 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     if (row->ok) {
         gm_drive_warning(&drive, row->sentence, GM_MESSAGE);
     }
-    if (stream) {
-        struct gm_row line = {.stream = stream, .form = GM_ROW_CSV};
-        put_front(sweep, run, &line);
-        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, &line);
-        fclose(stream);
+    if (values && gm_stream_begin(&line)) {
+        struct gm_row front = {.stream = line.stream, .form = GM_ROW_CSV};
+        put_front(sweep, run, &front);
+        put_end(sweep, &drive, status, row->ok ? row->sentence : "", values, &front);
     }
+    char *cells = gm_stream_end(&line);
     series.count = row->ok ? series.count : 0;
-    if (rows) {
-        put_values(sweep, cells, &series, rows);
-        fclose(rows);
+    if (cells && gm_stream_begin(&rows)) {
+        put_values(sweep, cells, &series, rows.stream);
     }
+    row->text = gm_stream_end(&rows);
     free(cells);
     free(series.pairs);
     free(values);

@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "app/base/arguments.h"
 #include "app/base/interrupt.h"
 #include "app/base/pool.h"
 #include "app/grid/sweep.h"
@@ -219,7 +218,7 @@ static void open_file(struct gm_sweep_table *table, const char *retry)
                        "%.360s is being written by another process", table->path);
     const int copy = dup(table->fd);
     table->old.stream = copy >= 0 ? fdopen(copy, "r") : NULL;
-    table->old.group = gm_sweep_index_cell(table->sweep);
+    table->old.group = table->sweep->index;
     if (!table->old.stream) {
         close(copy);
         gm_arena_need(table->arena, false);

@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "app/grid/hooks.h"
+#include "app/grid/grid.h"
 #include "core/arena.h"
 #include "render/message.h"
 
