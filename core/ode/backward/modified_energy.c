@@ -4,7 +4,6 @@
    equally many branches at once. Where f = w J grad H (vortices) this is done for w H. */
 #include "core/ode/backward/modified_energy.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -222,18 +222,9 @@ static struct gm_progress loop(const struct gm_task *task)
     return progress;
 }
 
-#define GSL .family = &gm_family_gsl_steppers
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_gsl_rk4, .coefficients = &gsl_odeiv2_step_rk4, GSL},
-    {GM_TEXTS_gsl_rk8pd, .coefficients = &gsl_odeiv2_step_rk8pd, GSL},
-    {GM_TEXTS_gsl_msadams, .coefficients = &gsl_odeiv2_step_msadams, GSL},
-    {GM_TEXTS_gsl_msbdf, .coefficients = &gsl_odeiv2_step_msbdf, .needs = GM_NEEDS_JACOBIAN, GSL},
-};
-
 const struct gm_family gm_family_gsl_steppers = {
     .title = "GSL steppers",
-    GM_ROWS,
+    GM_ROWS(gsl_steppers),
     .parameters = gm_settings_of_tolerance,
     .loop = loop,
     .workspace_open = workspace_open,

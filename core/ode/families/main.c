@@ -7,13 +7,15 @@
        GM_SCHEME_ROW(identifier, coefficients) GM_SCHEME_TEXTS(identifier, members of struct gm_scheme)
    with the coefficients as the doubles of their formulas; a composition of Verlet's method is
        GM_COMPOSITION(identifier, steps)
-   The texts of a row are
-       #define GM_TEXTS_identifier members of struct gm_scheme */
-#include <math.h>
+   The texts of a row, and the rows of a family that are named there, are
+       #define GM_TEXTS_identifier members of struct gm_scheme
+       #define GM_SCHEMES_family {GM_TEXTS_identifier}, ... */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/lines.h"
 #include "core/files/generated.h"
 #include "core/model/written_scheme.h"
@@ -196,11 +198,48 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
     return true;
 }
 
+/* The lines of a list of rows. */
+enum { SCHEME, FAMILY = 4, ROW, NEEDS, ORDER, CLAIMS, WORDS };
+static const char *const words[] = {"scheme", "title", "formula", "reference", "family",
+                                    "row",    "needs", "order",   "claims",    NULL};
+
+static const char *const with_rows[] = {
+#define GM_FAMILY(name) #name,
+#include "core/ode/families/families.def"
+#undef GM_FAMILY
+    NULL};
+
+/* Writes facets as GM_NEEDS_A | GM_NEEDS_B. */
+static void put_needs(FILE *out, const char *text, struct gm_span rest)
+{
+    const char *before = ", .needs = ";
+    for (struct gm_span need; gm_span_take(text, &rest, ",", &need); before = " | ") {
+        fprintf(out, "%sGM_NEEDS_", before);
+        for (size_t i = need.begin; i < need.end; i++) {
+            fputc(toupper((unsigned char)text[i]), out);
+        }
+    }
+}
+
+/* Writes the rows that name a family, in their order. */
+static void put_rows(FILE *out, const char *text, size_t length, const char *family, struct gm_fault *fault)
+{
+    struct gm_text_line line;
+    char identifier[64] = "";
+    fprintf(out, "#define GM_SCHEMES_%s", family);
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+        if (gm_span_is(text, line.word, words[SCHEME])) {
+            identifier_of(identifier, text + line.value.begin, line.value.end - line.value.begin);
+        } else if (gm_span_is(text, line.word, words[FAMILY]) && gm_span_is(text, line.value, family)) {
+            fprintf(out, " {GM_TEXTS_%s},", identifier);
+        }
+    }
+    fputc('\n', out);
+}
+
 /* Writes the texts of all rows of a list. False if a line has no meaning. */
 static bool put_texts(FILE *out, const char *text, size_t length, struct gm_fault *fault)
 {
-    static const char *const words[] = {"scheme", "title", "formula", "reference", "order", "claims", NULL};
-    enum { SCHEME, ORDER = 4, CLAIMS, WORDS };
     struct gm_text_line line;
     for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
         const char *value = text + line.value.begin;
@@ -208,7 +247,8 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
         unsigned claims;
         size_t wrong;
         char identifier[64];
-        if (word == WORDS || (word == CLAIMS && !gm_claims_read(value, size, &claims, &wrong))) {
+        if (word == WORDS || (word == CLAIMS && !gm_claims_read(value, size, &claims, &wrong)) ||
+            (word == FAMILY && gm_span_among(text, line.value, with_rows) == GM_COUNT(with_rows) - 1)) {
             snprintf(fault->sentence, sizeof fault->sentence, "%.*s is not such a line", (int)size, value);
             return false;
         }
@@ -216,6 +256,12 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             const char *further = memchr(value, ' ', size);
             fprintf(out, "\n#define GM_TEXTS_%s .name = \"%.*s\"", identifier_of(identifier, value, size),
                     (int)(further ? further - value : (ptrdiff_t)size), value);
+        } else if (word == FAMILY) {
+            fprintf(out, ", .family = &gm_family_%.*s", (int)size, value);
+        } else if (word == ROW) {
+            fprintf(out, ", .coefficients = &%.*s", (int)size, value);
+        } else if (word == NEEDS) {
+            put_needs(out, text, line.value);
         } else if (word == ORDER) {
             fprintf(out, ", .order = %.*s", (int)size, value);
         } else if (word == CLAIMS) {
@@ -225,6 +271,9 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
         }
     }
     fputc('\n', out);
+    for (size_t i = 0; with_rows[i]; i++) {
+        put_rows(out, text, length, with_rows[i], fault);
+    }
     return !fault->sentence[0];
 }
 

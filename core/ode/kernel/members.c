@@ -3,7 +3,6 @@
 #include "core/ode/kernel/members.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"

@@ -57,10 +57,13 @@ void gm_members_close(void *members);
     .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = gm_members_close,    \
     .members = family
 #define GM_MEMBERS_OF_NO_ROWS(...) GM_MEMBERS_BY((&(const struct gm_member_family){__VA_ARGS__}))
-/* The kind, and the rows of a list `schemes`. */
-#define GM_ROWS .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
-#define GM_MEMBERS(...) GM_ROWS, GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
-#define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
+/* The kind, and the rows of a list `schemes`, or those that families/schemes.text gives the family. */
+#define GM_ROWS_LISTED .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
+#define GM_ROWS(family)                                                                                      \
+    .kind = &gm_kind_ode, .schemes = (const struct gm_scheme[]){GM_SCHEMES_##family},                        \
+    .count = sizeof((const struct gm_scheme[]){GM_SCHEMES_##family}) / sizeof(struct gm_scheme)
+#define GM_MEMBERS(family, ...) GM_ROWS(family), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
+#define GM_MEMBERS_WITH_MEMORY(family, ...) GM_MEMBERS(family, __VA_ARGS__), .memory = gm_members_memory
 
 /* Adds a step to the time that a scheme with its own steps has reached, by a compensated sum. Returns
    GM_STEP_COLLAPSE if it changes nothing. */

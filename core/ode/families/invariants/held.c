@@ -6,8 +6,6 @@
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
-#include <stdio.h>
-
 #include "core/ode/families/family.h"
 #include "core/ode/variational/action.h"
 #include "core/schemes.h"

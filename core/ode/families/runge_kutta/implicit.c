@@ -464,7 +464,7 @@ const struct gm_family gm_family_implicit = {
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
-    GM_ROWS,
+    GM_ROWS_LISTED,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .members = &gm_implicit_modes,

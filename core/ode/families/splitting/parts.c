@@ -667,7 +667,6 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
     return known ? words[part.how] : NULL;
 }
 
-#define PARTS .family = &gm_family_parts, .needs
 #define GM_SCHEME_ROW(identifier, ...)                                                                       \
     static const struct gm_parts_row identifier = {                                                          \
         .parts = 2, .list = {{"kinetic", NULL}, {"potential", NULL}}, __VA_ARGS__};
@@ -685,14 +684,7 @@ static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5
                                  suzuki4 = {.of_pieces = &gm_composition_suzuki4},
                                  kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_volume_splitting1, .coefficients = &once, PARTS = GM_NEEDS_VOLUME},
-    {GM_TEXTS_volume_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_VOLUME},
-    {GM_TEXTS_impulse2, .coefficients = &rest_linear, PARTS = GM_NEEDS_FAST_LINEAR},
-    {GM_TEXTS_wisdom_holman2, .coefficients = &interaction_kepler, PARTS = GM_NEEDS_KEPLER},
-    {GM_TEXTS_bracket_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_PIECES},
-    {GM_TEXTS_bracket_splitting4, .coefficients = &suzuki4, PARTS = GM_NEEDS_PIECES},
-    {GM_TEXTS_bracket_splitting6, .coefficients = &kahan_li6, PARTS = GM_NEEDS_PIECES},
+static const struct gm_scheme schemes[] = {GM_SCHEMES_parts
 #define GM_SCHEME_ROW(identifier, ...)
 #define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
     {.coefficients = &identifier, .family = &gm_family_parts, __VA_ARGS__},
@@ -703,7 +695,7 @@ static const struct gm_scheme schemes[] = {
 
 const struct gm_family gm_family_parts = {
     .title = "splitting by parts",
-    GM_ROWS,
+    GM_ROWS_LISTED,
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

@@ -108,7 +108,7 @@ const struct gm_family gm_family_splitting = {
     .over_kernels = GM_OVER_SPLITTING,
     .coefficients_open = coefficients_open,
     .title = "splitting",
-    GM_ROWS,
+    GM_ROWS_LISTED,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,
