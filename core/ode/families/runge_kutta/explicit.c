@@ -112,5 +112,5 @@ const struct gm_family gm_family_explicit = {
     .loop = advance,
     .carries_passive = true,
     .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_close = gm_workspace_close,
 };

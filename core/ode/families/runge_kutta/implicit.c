@@ -58,41 +58,20 @@ static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, 
     };
 }
 
-/* One of the two. */
-struct work {
-    void *tiles, *modes;
-};
-
-static void workspace_close(void *workspace)
+/* True if waves are solved for, by modes.c. */
+static bool is_by_modes(const struct gm_problem *problem)
 {
-    struct work *work = workspace;
-    if (work->modes) {
-        gm_members_close(work->modes);
-    }
-    free(work->tiles);
-    free(work);
+    return gm_ode_of(problem)->semilinear && problem->m == 1;
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_tableau *row = scheme->coefficients;
-    const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
-        return NULL;
-    }
-    if (gm_ode_of(problem)->semilinear && problem->m == 1) {
-        work->modes = gm_members_workspace(problem, scheme);
-    } else {
-        work->tiles =
-            gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
-                          gm_newton_fits(problem) ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
-    }
-    if (!work->modes && !work->tiles) {
-        workspace_close(work);
-        return NULL;
-    }
-    return work;
+    const size_t n = gm_tile_components(problem),
+                 stages = (size_t)((const struct gm_tableau *)scheme->coefficients)->stages;
+    return is_by_modes(problem)
+               ? gm_members_workspace(problem, scheme)
+               : gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
+                               gm_newton_fits(problem) ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
 }
 
 /* Updates components [from, to) of the increments, z := h a f, of the members that still iterate, and the sum
@@ -418,14 +397,9 @@ GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    const struct work *work = task->workspace;
-    struct gm_task part = *task;
-    if (work->modes) {
-        part.workspace = work->modes;
-        return gm_members_loop(&part);
-    }
-    part.workspace = work->tiles;
-    return gm_tiles_advance(&part, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
+    return is_by_modes(task->problem) ? gm_members_loop(task)
+                                      : gm_tiles_advance(task, task->scheme->coefficients,
+                                                         task->problem->m == 1 ? step_one : step_many);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -470,5 +444,5 @@ const struct gm_family gm_family_implicit = {
     .members = &gm_implicit_modes,
     .carries_passive = true,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = gm_workspace_close,
 };

@@ -112,5 +112,5 @@ const struct gm_family gm_family_splitting = {
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_close = gm_workspace_close,
 };
