@@ -14,12 +14,7 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
-/* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) const struct gm_tableau gm_implicit_##identifier = {__VA_ARGS__};
-#define GM_SCHEME_TEXTS(...)
-#include "core/implicit_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
+#include "core/implicit_schemes.def" /* the rows, which the build writes by share/schemes */
 
 /* The loop for an n chosen at run time, through the problem's field, by the rules of the loop over kernels: a
    member's bits depend neither on the others nor on the loop. A passive particle whose iteration does not
@@ -402,15 +397,6 @@ static struct gm_progress advance(const struct gm_task *task)
                                                          task->problem->m == 1 ? step_one : step_many);
 }
 
-static const struct gm_scheme schemes[] = {
-#define GM_SCHEME_ROW(...)
-#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
-    {.family = &gm_family_implicit, .coefficients = &gm_implicit_##identifier, __VA_ARGS__},
-#include "core/implicit_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-};
-
 /* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
    g_l b_j of each earlier one. */
 void gm_tableau_coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
@@ -438,7 +424,7 @@ const struct gm_family gm_family_implicit = {
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
-    GM_ROWS_LISTED,
+    GM_ROWS(implicit),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .members = &gm_implicit_modes,

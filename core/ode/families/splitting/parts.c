@@ -650,13 +650,8 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
     return known ? words[part.how] : NULL;
 }
 
-#define GM_SCHEME_ROW(identifier, ...)                                                                       \
-    static const struct gm_parts_row identifier = {                                                          \
-        .parts = 2, .list = {{"kinetic", NULL}, {"potential", NULL}}, __VA_ARGS__};
-#define GM_SCHEME_TEXTS(identifier, ...)
 #include "core/corrected_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
+
 static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
                                                        .list = {{"interaction", NULL}, {"kepler", NULL}}},
@@ -667,14 +662,7 @@ static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5
                                  suzuki4 = {.of_pieces = &gm_composition_suzuki4},
                                  kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
 
-static const struct gm_scheme schemes[] = {GM_SCHEMES_parts
-#define GM_SCHEME_ROW(identifier, ...)
-#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
-    {.coefficients = &identifier, .family = &gm_family_parts, __VA_ARGS__},
-#include "core/corrected_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-};
+static const struct gm_scheme schemes[] = {GM_SCHEMES_parts GM_SCHEMES_corrected};
 
 const struct gm_family gm_family_parts = {
     .title = "splitting by parts",
