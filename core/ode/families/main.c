@@ -222,9 +222,9 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
 }
 
 /* The lines of a list of rows. */
-enum { SCHEME, FAMILY = 4, ROW, NEEDS, ORDER, CLAIMS, WORDS };
-static const char *const words[] = {"scheme", "title", "formula", "reference", "family",
-                                    "row",    "needs", "order",   "claims",    NULL};
+enum { SCHEME, FAMILY = 4, ROW, NEEDS, ORDER, CLAIMS, FACET, STRUCTURE, PROBLEMS, WORDS };
+static const char *const words[] = {"scheme", "title",  "formula", "reference", "family",   "row", "needs",
+                                    "order",  "claims", "facet",   "structure", "problems", NULL};
 
 static const char *const with_rows[] = {
 #define GM_FAMILY(name) #name,
@@ -232,14 +232,36 @@ static const char *const with_rows[] = {
 #undef GM_FAMILY
     NULL};
 
-/* Writes facets as GM_NEEDS_A | GM_NEEDS_B. */
+static void put_facet(FILE *out, const char *text, struct gm_span facet)
+{
+    fputs("GM_NEEDS_", out);
+    for (size_t i = facet.begin; i < facet.end; i++) {
+        fputc(toupper((unsigned char)text[i]), out);
+    }
+}
+
 static void put_needs(FILE *out, const char *text, struct gm_span rest)
 {
     const char *before = ", .needs = ";
     for (struct gm_span need; gm_span_take(text, &rest, ",", &need); before = " | ") {
-        fprintf(out, "%sGM_NEEDS_", before);
-        for (size_t i = need.begin; i < need.end; i++) {
-            fputc(toupper((unsigned char)text[i]), out);
+        fputs(before, out);
+        put_facet(out, text, need);
+    }
+}
+
+/* Writes the words of facets as members of struct gm_facet_words. */
+static void put_facets(FILE *out, const char *text, size_t length, struct gm_fault *fault)
+{
+    struct gm_text_line line;
+    fputs("\n#define GM_FACET_WORDS", out);
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+        const size_t word = gm_span_among(text, line.word, words);
+        if (word == FACET) {
+            fputs(" {", out);
+            put_facet(out, text, line.value);
+        } else if (word == STRUCTURE || word == PROBLEMS) {
+            put_text(out, words[word], text, line.value);
+            fputs(word == PROBLEMS ? "}," : "", out);
         }
     }
 }
@@ -286,6 +308,8 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             fprintf(out, ", .coefficients = &%.*s", (int)size, value);
         } else if (word == NEEDS) {
             put_needs(out, text, line.value);
+        } else if (word >= FACET) {
+            continue;
         } else if (word == ORDER) {
             fprintf(out, ", .order = %.*s", (int)size, value);
         } else if (word == CLAIMS) {
@@ -294,6 +318,7 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             put_text(out, words[word], text, line.value);
         }
     }
+    put_facets(out, text, length, fault);
     for (size_t i = 0; with_rows[i]; i++) {
         put_rows(out, text, length, with_rows[i], fault);
     }
