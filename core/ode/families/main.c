@@ -253,11 +253,12 @@ static void put_needs(FILE *out, const char *text, struct gm_span rest)
 static void put_facets(FILE *out, const char *text, size_t length, struct gm_fault *fault)
 {
     struct gm_text_line line;
-    fputs("\n#define GM_FACET_WORDS", out);
+    const char *before = "\n#define GM_FACET_WORDS {";
     for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
         const size_t word = gm_span_among(text, line.word, words);
         if (word == FACET) {
-            fputs(" {", out);
+            fputs(before, out);
+            before = " {";
             put_facet(out, text, line.value);
         } else if (word == STRUCTURE || word == PROBLEMS) {
             put_text(out, words[word], text, line.value);
