@@ -49,10 +49,8 @@ enum {
    run. */
 static void record_state(const struct gm_view *view, double *entry)
 {
-    const size_t m = view->problem->m, centre = gm_system_centre(view);
-    for (size_t c = 0; c < gm_system_scene_of(view)->system.n; c++) {
-        entry[c] = view->state[c * m + centre];
-    }
+    gm_member_take(view->state, entry, gm_system_scene_of(view)->system.n, view->problem->m,
+                   gm_system_centre(view));
 }
 
 static double step_of(const void *parameters)
@@ -241,8 +239,8 @@ static void place_member(const struct gm_system_lane *lane, size_t member, size_
 static void put_on_manifold(const struct gm_problem *problem, double *y, size_t m, size_t member)
 {
     double *one = malloc(problem->n * sizeof *one);
-    for (size_t c = 0; one && c < problem->n; c++) {
-        one[c] = y[c * m + member];
+    if (one) {
+        gm_member_take(y, one, problem->n, m, member);
     }
     const bool found = one && gm_manifold_project(problem, one);
     for (size_t c = 0; c < problem->n; c++) {

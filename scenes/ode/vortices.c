@@ -264,31 +264,20 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     return true;
 }
 
-/* Sums over the vortices, including images, two for each of the reduced system. */
-static double mean_of(const struct gm_view *view, bool squares, size_t side)
+/* An impulse, by its observable, as a mean over the vortices and their images: so it is divided by the sum of the
+   strengths, its natural scale, times the radius 1. */
+static double impulse(const struct gm_view *view)
 {
     const struct vortices *vortices = view->parameters;
+    const char *key = view->observable->key;
     const size_t count = carried_of(vortices);
     const double *x = view->state, *y = x + count;
+    const bool angular = key[0] == 'a', across = strcmp(key, "impulse_x_error") == 0;
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        sum += squares ? x[i] * x[i] + y[i] * y[i] : view->state[side * count + i];
+        sum += angular ? x[i] * x[i] + y[i] * y[i] : (across ? x : y)[i];
     }
-    return !squares && vortices->configuration == REDUCED ? 0 : sum / (double)count;
-}
-
-/* Impulses are divided by the sum of the strengths: their natural scale, times the radius 1. */
-static double impulse_x(const struct gm_view *view)
-{
-    return mean_of(view, false, 0);
-}
-static double impulse_y(const struct gm_view *view)
-{
-    return mean_of(view, false, 1);
-}
-static double angular_impulse(const struct gm_view *view)
-{
-    return mean_of(view, true, 0);
+    return !angular && vortices->configuration == REDUCED ? 0 : sum / (double)count;
 }
 
 static double symmetry_defect(const struct gm_view *view)
@@ -407,9 +396,9 @@ static double natural_energy(const struct gm_view *view)
 static const struct gm_observable observables[] = {
     GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
                        .scale_text = "strength²/4π"),
-    GM_KEPT_OBSERVABLE("impulse_x_error", impulse_x, "X", "impulse error, x", .least = 1, .scale_text = "1"),
-    GM_KEPT_OBSERVABLE("impulse_y_error", impulse_y, "Y", "impulse error, y", .least = 1, .scale_text = "1"),
-    GM_KEPT_OBSERVABLE("angular_impulse_error", angular_impulse, "I", "angular impulse error"),
+    GM_KEPT_OBSERVABLE("impulse_x_error", impulse, "X", "impulse error, x", .least = 1, .scale_text = "1"),
+    GM_KEPT_OBSERVABLE("impulse_y_error", impulse, "Y", "impulse error, y", .least = 1, .scale_text = "1"),
+    GM_KEPT_OBSERVABLE("angular_impulse_error", impulse, "I", "angular impulse error"),
     GM_OBSERVABLE("section_shift", section_shift, "shift of the section"),
     GM_LOG_OBSERVABLE("symmetry_defect", symmetry_defect, "asymmetry  |z₁ + z₃|, |z₂ + z₄|",
                       .missing = "only four vortices that start so have this symmetry"),

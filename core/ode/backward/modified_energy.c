@@ -4,7 +4,6 @@
    equally many branches at once. Where f = w J grad H (vortices) this is done for w H. */
 #include "core/ode/backward/modified_energy.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,9 +92,7 @@ static gm_node_id *field_of(struct opening *opening, gm_node_id energy)
     const size_t n = opening->energy->n, half = n / 2;
     gm_node_id *gradient = gm_arena_take(arena, n + 1, sizeof *gradient),
                *field = gm_arena_take(arena, n + 1, sizeof *field);
-    bool *marked = gm_arena_take(arena, n + 1, sizeof *marked);
-    memset(marked, true, n);
-    gm_arena_need(arena, gm_gradient(graph, energy, marked, n, gradient));
+    gm_arena_need(arena, gm_gradient(graph, energy, NULL, n, gradient));
     for (size_t i = 0; i < half; i++) {
         field[i] = gradient[half + i];
         field[half + i] = gm_formula_apply(graph, GM_OPERATION_NEGATE, gradient[i], gradient[i]);
@@ -104,17 +101,11 @@ static gm_node_id *field_of(struct opening *opening, gm_node_id energy)
     return field;
 }
 
-static bool is_smooth(const struct gm_formula *graph, gm_node_id node)
+static bool is_rough(struct gm_formula *graph, gm_node_id part, const void *data)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(graph, node, &count);
-    bool smooth = true;
-    for (size_t i = 0; i < count; i++) {
-        const enum gm_operation operation = graph->nodes[parts[i]].operation;
-        smooth = smooth && (operation <= GM_VARIABLE || gm_operation_rows[operation].smooth);
-    }
-    free(parts);
-    return smooth;
+    const enum gm_operation operation = graph->nodes[part].operation;
+    (void)data;
+    return operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
 }
 
 /* ---- trees ---- */
@@ -167,7 +158,8 @@ static void open_formula(struct opening *opening)
     const struct gm_hamiltonian *hamiltonian = gm_ode_of(opening->problem)->hamiltonian;
     gm_node_id node = GM_NO_NODE;
     gm_arena_need(energy->arena, hamiltonian->formula(opening->problem, graph, &node));
-    gm_arena_check(energy->arena, is_smooth(graph, node), "H is not smooth: it has no further derivatives");
+    gm_arena_check(energy->arena, gm_formula_first(graph, node, is_rough, NULL) == GM_NO_NODE,
+                   "H is not smooth: it has no further derivatives");
     energy->weight = gm_weight_of(opening->problem);
     node = gm_product(graph, gm_formula_constant(graph, energy->weight), node);
     gm_arena_need(energy->arena, !graph->failed);

@@ -5,7 +5,6 @@
    measurement: steps that stretch phase space a millionfold stretch round-off too. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"

@@ -17,6 +17,7 @@
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
+#include "core/ode_scheme_texts.h"
 #include "core/quantity.h"
 #include "core/run.h"
 #include "core/theory/certify.h"
@@ -62,54 +63,7 @@ static const char *obstacle(const struct gm_problem *problem, unsigned lacking)
                : NULL;
 }
 
-static const struct gm_facet_words words[] = {
-    {GM_NEEDS_FREE_BODY, "the bracket of angular momenta and the energy of a free rigid body",
-     "free rigid bodies"},
-    {GM_NEEDS_AXES, "the bracket of angular momenta and an energy that is a sum over the axes",
-     "rotating bodies whose energy is a sum over the axes, free or as a top"},
-    {GM_NEEDS_ROTATIONS, "the bracket of angular momenta", "systems with the bracket of angular momenta"},
-    {GM_NEEDS_GROUP, "the bracket of angular momenta, or of a top",
-     "systems with the bracket of angular momenta, or of a top"},
-    {GM_NEEDS_PIECES,
-     "a bracket, and an energy that splits into pieces whose flows are exact: of components that commute, and in whose "
-     "flow the others are linear",
-     "Poisson systems whose energy splits into pieces with exact flows"},
-    {GM_NEEDS_DEGENERATE,
-     "a Lagrangian that is linear in the velocities, L = theta(q) . q' - H(q), of at most 64 coordinates and without t",
-     "Lagrangian systems linear in the velocities"},
-    {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
-    {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
-    {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",
-     "systems with a friction -c p"},
-    {GM_NEEDS_ACTION, "a Lagrangian, or a Hamiltonian T(p) + V(q) with a quadratic T, without constraints",
-     "Lagrangian systems, and Hamiltonian ones of quadratic kinetic energy T(p)"},
-    {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
-    {GM_NEEDS_MAGNETIC,
-     "a magnetic field: v' = g(x, t) + W(x, t) v with W antisymmetric, in 2 or 3 dimensions",
-     "motions in a magnetic field"},
-    {GM_NEEDS_KEPLER, "a Kepler part with a perturbation, or the gravity of bodies",
-     "perturbed Kepler problems and bodies that attract each other"},
-    {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
-    {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0",
-     "motions in a negative potential V(q)"},
-    {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
-    {GM_NEEDS_SEMILINEAR, "a linear part that is the same at every point of a ring",
-     "fields on a ring, with a linear part"},
-    {GM_NEEDS_LAGRANGIAN, "a Lagrangian of one degree of freedom", "Lagrangians of one degree of freedom"},
-    {GM_NEEDS_MONITOR, "a monitor, the density of steps", "systems with a monitor, the density of steps"},
-    {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not split into T(p) + V(q)",
-     "Hamiltonian systems that do not separate"},
-    {GM_NEEDS_NYSTROM, "a quadratic kinetic energy T(p), or x'' = g(x, t)",
-     "separable Hamiltonian systems of quadratic kinetic energy, and x'' = g(x, t)"},
-    {GM_NEEDS_SPLIT, "a Hamiltonian H = T(p) + V(q), or x'' = g(x, t)",
-     "separable Hamiltonian systems, and x'' = g(x, t)"},
-    {GM_NEEDS_HAMILTONIAN, "a Hamiltonian", "Hamiltonian systems"},
-    {GM_NEEDS_ENERGY, "an energy of the whole state", "systems with an energy"},
-    {GM_NEEDS_QUADRATIC, "a quadratic field", "quadratic vector fields"},
-    {GM_NEEDS_PARTS, "a field that is a sum of named parts", "systems with these parts"},
-    {GM_NEEDS_JACOBIAN, "a Jacobian that is written out", "systems whose Jacobian is written out"},
-    {0},
-};
+static const struct gm_facet_words words[] = {GM_FACET_WORDS{0}};
 
 static gm_loop *loop(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {

@@ -21,7 +21,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <string.h>
 
 #include "core/linear/settled.h"
@@ -51,24 +50,17 @@ enum { GM_BURST = 64 };
 /* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide
    registers, so its loops are those of the baseline alone. */
 #ifdef GM_ALONE
-#define GM_DISPATCH(family)                                                                                  \
-    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
-    {                                                                                                        \
-        return family##_run_scalar(task);                                                                    \
-    }
+#define GM_RUN(family) family##_run_scalar(task)
 #elif defined(GM_BASELINE)
-#define GM_DISPATCH(family)                                                                                  \
-    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
-    {                                                                                                        \
-        return task->problem->m == 1 ? family##_run_scalar(task) : family##_run_lanes(task);                 \
-    }
+#define GM_RUN(family) task->problem->m == 1 ? family##_run_scalar(task) : family##_run_lanes(task)
 #else
+#define GM_RUN(family) family##_run_lanes(task)
+#endif
 #define GM_DISPATCH(family)                                                                                  \
     static struct gm_progress family##_loop(const struct gm_task *task)                                      \
     {                                                                                                        \
-        return family##_run_lanes(task);                                                                     \
+        return GM_RUN(family);                                                                               \
     }
-#endif
 #ifdef GM_LOOP_EXPLICIT
 GM_DISPATCH(explicit_runge_kutta)
 #endif

@@ -45,25 +45,13 @@ int gm_scheme_over_kernels(const struct gm_scheme *scheme)
     return over;
 }
 
-static void workspace_close(void *work)
-{
-    gm_arena_close(((struct work *)work)->arena);
-}
-
-/* The arguments of the body that opens a workspace. */
-struct opening {
-    const struct gm_problem *problem;
-    const struct gm_substeps *substeps;
-    struct work *work;
-};
-
 static void open_work(struct gm_arena *arena, void *data)
 {
-    struct opening *opening = data;
+    struct gm_workspace *opening = data;
     const struct gm_problem *problem = opening->problem;
-    const struct gm_substeps *substeps = opening->substeps;
+    const struct gm_substeps *substeps = opening->scheme->coefficients;
     const size_t size = problem->n * problem->m;
-    struct work *work = opening->work = gm_arena_take(arena, 1, sizeof *work);
+    struct work *work = opening->opened = gm_arena_take(arena, 1, sizeof *work);
     *work = (struct work){.arena = arena,
                           .count = substeps->count,
                           .state = gm_arena_take(arena, size, sizeof(double)),
@@ -84,8 +72,7 @@ static void open_work(struct gm_arena *arena, void *data)
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    struct opening opening = {problem, scheme->coefficients, NULL};
-    return gm_arena_made(open_work, &opening) ? opening.work : NULL;
+    return gm_workspace_open(problem, scheme, open_work);
 }
 
 static void workspace_reset(void *data)
@@ -147,7 +134,7 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
 #define COMPOSITION(passive)                                                                                 \
     {                                                                                                        \
         .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums, .loop = loop,       \
-        .carries_passive = passive, .workspace_open = workspace_open, .workspace_close = workspace_close,    \
+        .carries_passive = passive, .workspace_open = workspace_open, .workspace_close = gm_workspace_close, \
         .workspace_reset = workspace_reset, .lacks = lacks,                                                  \
     }
 const struct gm_family gm_family_composition = COMPOSITION(false);

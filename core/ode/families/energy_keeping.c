@@ -193,16 +193,7 @@ static const struct method avf2 = {average_field, &gm_composition_none};
 static const struct method avf4 = {average_field, &gm_composition_yoshida4};
 static const struct method discrete_gradient2 = {gradient_field, &gm_composition_none};
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_avf2, .family = &gm_family_energy_keeping, .coefficients = &avf2,
-     .needs = GM_NEEDS_HAMILTONIAN},
-    {GM_TEXTS_avf4, .family = &gm_family_energy_keeping, .coefficients = &avf4,
-     .needs = GM_NEEDS_HAMILTONIAN},
-    {GM_TEXTS_discrete_gradient2, .family = &gm_family_energy_keeping, .coefficients = &discrete_gradient2,
-     .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY},
-};
-
 const struct gm_family gm_family_energy_keeping = {
     .title = "energy-keeping",
-    GM_MEMBERS(.step = step, .room = room),
+    GM_MEMBERS(energy_keeping, .step = step, .room = room),
 };

@@ -149,15 +149,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static const struct exponential euler = {1, euler_terms}, lawson = {4, lawson_terms}, etd = {4, etd_terms};
 
-#define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_exponential_euler1, .coefficients = &euler, EXPONENTIAL},
-    {GM_TEXTS_lawson4, .coefficients = &lawson, EXPONENTIAL},
-    {GM_TEXTS_etdrk4, .coefficients = &etd, EXPONENTIAL},
-};
-
 const struct gm_family gm_family_exponential = {
     .title = "exponential Runge-Kutta",
-    GM_MEMBERS(.step = step, .open = open_work, .vectors = 1),
+    GM_MEMBERS(exponential, .step = step, .open = open_work, .vectors = 1),
 };

@@ -18,6 +18,7 @@
 enum { MOST_STEPS = 100000 };
 
 struct workspace {
+    struct gm_arena *arena; /* owns all of this */
     const struct gm_problem *problem;
     const gsl_odeiv2_step_type *type;
     unsigned long evaluations, solves;
@@ -55,18 +56,15 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
     return GSL_SUCCESS;
 }
 
-static void workspace_close(void *pointer)
+static void close_drivers(void *data)
 {
-    struct workspace *workspace = pointer;
-    for (size_t i = 0; workspace->drivers && i < workspace->problem->m; i++) {
+    struct workspace *workspace = data;
+    for (size_t i = 0; i < workspace->problem->m; i++) {
         if (workspace->drivers[i]) {
             gsl_odeiv2_driver_free(workspace->drivers[i]);
+            workspace->drivers[i] = NULL;
         }
     }
-    free(workspace->drivers);
-    free(workspace->state);
-    free(workspace->y);
-    free(workspace);
 }
 
 /* Under the guard. */
@@ -74,11 +72,8 @@ static bool make_drivers(void *data)
 {
     struct workspace *workspace = data;
     const double tolerance = workspace->tolerance > 0 ? workspace->tolerance : STANDARD_TOLERANCE;
+    close_drivers(workspace);
     for (size_t i = 0; i < workspace->problem->m; i++) {
-        if (workspace->drivers[i]) {
-            gsl_odeiv2_driver_free(workspace->drivers[i]);
-            workspace->drivers[i] = NULL;
-        }
         workspace->drivers[i] = gsl_odeiv2_driver_alloc_y_new(&workspace->system, workspace->type,
                                                               workspace->dt, tolerance, tolerance);
         if (!workspace->drivers[i]) {
@@ -89,26 +84,27 @@ static bool make_drivers(void *data)
     return true;
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+static void open_all(struct gm_arena *arena, void *data)
 {
-    struct workspace *workspace = calloc(1, sizeof *workspace);
-    if (!workspace) {
-        return NULL;
-    }
+    struct gm_workspace *opening = data;
+    const struct gm_problem *problem = opening->problem;
+    struct workspace *workspace = opening->opened = gm_arena_take(arena, 1, sizeof *workspace);
+    workspace->arena = arena;
     workspace->problem = problem;
-    workspace->type = *(const gsl_odeiv2_step_type *const *)scheme->coefficients;
+    workspace->type = *(const gsl_odeiv2_step_type *const *)opening->scheme->coefficients;
     workspace->system = (gsl_odeiv2_system){field, jacobian, problem->n, workspace};
     workspace->dt = 1;
     workspace->good = -1;
-    workspace->drivers = calloc(problem->m, sizeof *workspace->drivers);
-    workspace->state = malloc(problem->n * problem->m * sizeof *workspace->state);
-    workspace->y = malloc(problem->n * sizeof *workspace->y);
-    if (!workspace->drivers || !workspace->state || !workspace->y ||
-        !gm_memory_guard_gsl(make_drivers, workspace)) {
-        workspace_close(workspace);
-        return NULL;
-    }
-    return workspace;
+    workspace->drivers = gm_arena_take(arena, problem->m, sizeof *workspace->drivers);
+    workspace->state = gm_arena_take(arena, problem->n * problem->m, sizeof *workspace->state);
+    workspace->y = gm_arena_take(arena, problem->n, sizeof *workspace->y);
+    gm_arena_keep(arena, workspace, close_drivers);
+    gm_arena_need(arena, gm_memory_guard_gsl(make_drivers, workspace));
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    return gm_workspace_open(problem, scheme, open_all);
 }
 
 static void workspace_reset(void *pointer)
@@ -135,9 +131,7 @@ static enum gm_status step(const struct gm_task *task, struct workspace *workspa
 {
     const size_t n = task->problem->n, m = task->problem->m;
     for (size_t i = 0; i < m; i++) {
-        for (size_t c = 0; c < n; c++) {
-            workspace->y[c] = workspace->state[c * m + i];
-        }
+        gm_member_take(workspace->state, workspace->y, n, m, i);
         const int result = advance(workspace, workspace->drivers[i], t, task->dt, workspace->y);
         if (result == GSL_EBADFUNC) {
             return GM_BLOW_UP;
@@ -145,12 +139,10 @@ static enum gm_status step(const struct gm_task *task, struct workspace *workspa
         if (result != GSL_SUCCESS) {
             return GM_STEP_COLLAPSE; /* the driver's steps have become too small */
         }
-        for (size_t c = 0; c < n; c++) {
-            if (!(fabs(workspace->y[c]) <= task->limit)) { /* a NaN compares false */
-                return GM_BLOW_UP;
-            }
-            task->out[c * m + i] = workspace->y[c];
+        if (!gm_is_within(workspace->y, n, task->limit)) {
+            return GM_BLOW_UP;
         }
+        gm_member_put(workspace->y, task->out, n, m, i);
     }
     memcpy(workspace->state, task->out, n * m * sizeof(double));
     return GM_OK;
@@ -222,22 +214,13 @@ static struct gm_progress loop(const struct gm_task *task)
     return progress;
 }
 
-#define GSL .family = &gm_family_gsl_steppers
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_gsl_rk4, .coefficients = &gsl_odeiv2_step_rk4, GSL},
-    {GM_TEXTS_gsl_rk8pd, .coefficients = &gsl_odeiv2_step_rk8pd, GSL},
-    {GM_TEXTS_gsl_msadams, .coefficients = &gsl_odeiv2_step_msadams, GSL},
-    {GM_TEXTS_gsl_msbdf, .coefficients = &gsl_odeiv2_step_msbdf, .needs = GM_NEEDS_JACOBIAN, GSL},
-};
-
 const struct gm_family gm_family_gsl_steppers = {
     .title = "GSL steppers",
-    GM_ROWS,
+    GM_ROWS(gsl_steppers),
     .parameters = gm_settings_of_tolerance,
     .loop = loop,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = gm_workspace_close,
     .workspace_reset = workspace_reset,
     .not_resumable = true,
 };

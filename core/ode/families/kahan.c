@@ -30,11 +30,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_kahan2, .family = &gm_family_kahan, .needs = GM_NEEDS_QUADRATIC},
-};
-
 const struct gm_family gm_family_kahan = {
     .title = "Kahan",
-    GM_MEMBERS(.step = step, .vectors = 1, .squares = 1),
+    GM_MEMBERS(kahan, .step = step, .vectors = 1, .squares = 1),
 };

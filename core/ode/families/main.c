@@ -3,17 +3,19 @@
    texts of other rows.
    Usage: write_schemes implicit|splitting|corrected|compositions OUT.def NAME.scheme ...
           write_schemes texts OUT.h schemes.text
-   Each row is
-       GM_SCHEME_ROW(identifier, coefficients) GM_SCHEME_TEXTS(identifier, members of struct gm_scheme)
-   with the coefficients as the doubles of their formulas; a composition of Verlet's method is
+   The coefficients of each row, as the doubles of their formulas, are a constant of the family's type, and the rows are
+       #define GM_SCHEMES_implicit {members of struct gm_scheme}, ...
+   A composition of Verlet's method is
        GM_COMPOSITION(identifier, steps)
-   The texts of a row are
-       #define GM_TEXTS_identifier members of struct gm_scheme */
-#include <math.h>
+   The texts of a row, and the rows of a family that are named there, are
+       #define GM_TEXTS_identifier members of struct gm_scheme
+       #define GM_SCHEMES_family {GM_TEXTS_identifier}, ... */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/basics.h"
 #include "core/expression/lines.h"
 #include "core/files/generated.h"
 #include "core/model/written_scheme.h"
@@ -121,7 +123,16 @@ static bool is_text(const struct gm_written_scheme *scheme, enum gm_scheme_word 
 }
 
 enum family { IMPLICIT, SPLITTING, CORRECTED, COMPOSITIONS, TEXTS, FAMILIES };
-static const char *const families[FAMILIES] = {"implicit", "splitting", "corrected", "compositions", "texts"};
+static const struct {
+    const char *name, *family, *type, *prefix, *head; /* the head of the coefficients */
+} families[FAMILIES] = {
+    {"implicit", "implicit", "const struct gm_tableau", "gm_implicit_", ""},
+    {"splitting", "splitting", "static const struct gm_splitting", "", ""},
+    {"corrected", "parts", "static const struct gm_parts_row", "",
+     ".parts = 2, .list = {{\"kinetic\", NULL}, {\"potential\", NULL}}, "},
+    {.name = "compositions"},
+    {.name = "texts"},
+};
 
 /* The name of a scheme, and words behind it, as an identifier. */
 static char *identifier_of(char identifier[64], const char *name, size_t length)
@@ -143,9 +154,33 @@ static bool is_symmetric(const struct gm_written_line *steps)
     return same && steps->columns % 2 == 1;
 }
 
-/* Writes the scheme if the family advances it. False if it cannot be a row. */
+static void put_coefficients(FILE *out, const struct gm_written_scheme *scheme, const char *identifier,
+                             enum family family)
+{
+    const struct gm_written_line *corrector = &scheme->lines[GM_SCHEME_WORD_CORRECTOR],
+                                 *steps = &scheme->lines[GM_SCHEME_WORD_STEPS];
+    fprintf(out, "%s %s%s = {%s", families[family].type, families[family].prefix, identifier,
+            families[family].head);
+    if (is_text(scheme, GM_SCHEME_WORD_BASE, "verlet")) {
+        put_pieces_of_verlet(out, steps);
+    } else if (is_text(scheme, GM_SCHEME_WORD_BASE, "midpoint")) {
+        fputs(".stages = 1, .a = {{0.5}}, .b = {1}, .composition = &(const struct gm_composition)", out);
+        put_composition(out, steps);
+    } else if (family == CORRECTED) {
+        fputs(".splitting = {", out);
+        put_pieces(out, scheme);
+        fprintf(out, "}, .corrector = %a", corrector->numbers[0].value);
+    } else if (family == SPLITTING) {
+        put_pieces(out, scheme);
+    } else {
+        put_tableau(out, scheme);
+    }
+    fputs("};\n", out);
+}
+
+/* Writes the scheme if the family advances it: its coefficients, or its row. False if it cannot be a row. */
 static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const char *name,
-                       enum family family)
+                       enum family family, bool row)
 {
     const bool of_verlet = is_text(scheme, GM_SCHEME_WORD_BASE, "verlet"),
                of_midpoint = is_text(scheme, GM_SCHEME_WORD_BASE, "midpoint");
@@ -161,46 +196,97 @@ static bool put_scheme(FILE *out, const struct gm_written_scheme *scheme, const 
         return false;
     }
     const bool splitting = scheme->kind == GM_WRITTEN_SPLITTING || of_verlet;
-    if (family == COMPOSITIONS && of_verlet) {
+    if (family == COMPOSITIONS && of_verlet && !row) {
         fprintf(out, "GM_COMPOSITION(%s, ", identifier);
         put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
         fputs(")\n", out);
     }
-    const struct gm_written_line *corrector = &scheme->lines[GM_SCHEME_WORD_CORRECTOR];
-    if (family != (corrector->said ? CORRECTED : splitting ? SPLITTING : IMPLICIT)) {
+    const bool corrected = scheme->lines[GM_SCHEME_WORD_CORRECTOR].said;
+    if (family != (corrected ? CORRECTED : splitting ? SPLITTING : IMPLICIT)) {
         return true;
     }
-    fprintf(out, "GM_SCHEME_ROW(%s, ", identifier);
-    if (of_verlet) {
-        put_pieces_of_verlet(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
-    } else if (of_midpoint) {
-        fputs(".stages = 1, .a = {{0.5}}, .b = {1}, .composition = &(const struct gm_composition)", out);
-        put_composition(out, &scheme->lines[GM_SCHEME_WORD_STEPS]);
-    } else if (corrector->said) {
-        fputs(".splitting = {", out);
-        put_pieces(out, scheme);
-        fprintf(out, "}, .corrector = %a", corrector->numbers[0].value);
-    } else if (splitting) {
-        put_pieces(out, scheme);
-    } else {
-        put_tableau(out, scheme);
+    if (!row) {
+        put_coefficients(out, scheme, identifier, family);
+        return true;
     }
-    fprintf(out, ")\nGM_SCHEME_TEXTS(%s, .name = \"%s\", .order = %d, .claims = %#x", identifier, name,
-            scheme->order, claims);
-    fputs(corrector->said ? ", .needs = GM_NEEDS_PARTS" : splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
-    fputs(scheme->nystrom || corrector->said ? " | GM_NEEDS_NYSTROM" : "", out);
+    fprintf(out,
+            " {.family = &gm_family_%s, .coefficients = &%s%s, .name = \"%s\", .order = %d, .claims = %#x",
+            families[family].family, families[family].prefix, identifier, name, scheme->order, claims);
+    fputs(corrected ? ", .needs = GM_NEEDS_PARTS" : splitting ? ", .needs = GM_NEEDS_SPLIT" : "", out);
+    fputs(scheme->nystrom || corrected ? " | GM_NEEDS_NYSTROM" : "", out);
     put_line(out, scheme, GM_SCHEME_WORD_TITLE, "title");
     put_line(out, scheme, GM_SCHEME_WORD_FORMULA, "formula");
     put_line(out, scheme, GM_SCHEME_WORD_REFERENCE, "reference");
-    fputs(")\n", out);
+    fputs("},", out);
     return true;
+}
+
+/* The lines of a list of rows. */
+enum { SCHEME, FAMILY = 4, ROW, NEEDS, ORDER, CLAIMS, FACET, STRUCTURE, PROBLEMS, WORDS };
+static const char *const words[] = {"scheme", "title",  "formula", "reference", "family",   "row", "needs",
+                                    "order",  "claims", "facet",   "structure", "problems", NULL};
+
+static const char *const with_rows[] = {
+#define GM_FAMILY(name) #name,
+#include "core/ode/families/families.def"
+#undef GM_FAMILY
+    NULL};
+
+static void put_facet(FILE *out, const char *text, struct gm_span facet)
+{
+    fputs("GM_NEEDS_", out);
+    for (size_t i = facet.begin; i < facet.end; i++) {
+        fputc(toupper((unsigned char)text[i]), out);
+    }
+}
+
+static void put_needs(FILE *out, const char *text, struct gm_span rest)
+{
+    const char *before = ", .needs = ";
+    for (struct gm_span need; gm_span_take(text, &rest, ",", &need); before = " | ") {
+        fputs(before, out);
+        put_facet(out, text, need);
+    }
+}
+
+/* Writes the words of facets as members of struct gm_facet_words. */
+static void put_facets(FILE *out, const char *text, size_t length, struct gm_fault *fault)
+{
+    struct gm_text_line line;
+    const char *before = "\n#define GM_FACET_WORDS {";
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+        const size_t word = gm_span_among(text, line.word, words);
+        if (word == FACET) {
+            fputs(before, out);
+            before = " {";
+            put_facet(out, text, line.value);
+        } else if (word == STRUCTURE || word == PROBLEMS) {
+            put_text(out, words[word], text, line.value);
+            fputs(word == PROBLEMS ? "}," : "", out);
+        }
+    }
+}
+
+/* Writes the rows that name a family, in their order. */
+static void put_rows(FILE *out, const char *text, size_t length, const char *family, struct gm_fault *fault)
+{
+    struct gm_text_line line;
+    char identifier[64] = "";
+    bool begun = false;
+    for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
+        if (gm_span_is(text, line.word, words[SCHEME])) {
+            identifier_of(identifier, text + line.value.begin, line.value.end - line.value.begin);
+        } else if (gm_span_is(text, line.word, words[FAMILY]) && gm_span_is(text, line.value, family)) {
+            fprintf(out, "%s%s {GM_TEXTS_%s},", begun ? "" : "\n#define GM_SCHEMES_", begun ? "" : family,
+                    identifier);
+            begun = true;
+        }
+    }
 }
 
 /* Writes the texts of all rows of a list. False if a line has no meaning. */
 static bool put_texts(FILE *out, const char *text, size_t length, struct gm_fault *fault)
 {
-    static const char *const words[] = {"scheme", "title", "formula", "reference", "order", "claims", NULL};
-    enum { SCHEME, ORDER = 4, CLAIMS, WORDS };
     struct gm_text_line line;
     for (size_t at = 0; gm_lines_next(text, length, &at, &line, fault);) {
         const char *value = text + line.value.begin;
@@ -208,7 +294,8 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
         unsigned claims;
         size_t wrong;
         char identifier[64];
-        if (word == WORDS || (word == CLAIMS && !gm_claims_read(value, size, &claims, &wrong))) {
+        if (word == WORDS || (word == CLAIMS && !gm_claims_read(value, size, &claims, &wrong)) ||
+            (word == FAMILY && gm_span_among(text, line.value, with_rows) == GM_COUNT(with_rows) - 1)) {
             snprintf(fault->sentence, sizeof fault->sentence, "%.*s is not such a line", (int)size, value);
             return false;
         }
@@ -216,6 +303,14 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             const char *further = memchr(value, ' ', size);
             fprintf(out, "\n#define GM_TEXTS_%s .name = \"%.*s\"", identifier_of(identifier, value, size),
                     (int)(further ? further - value : (ptrdiff_t)size), value);
+        } else if (word == FAMILY) {
+            fprintf(out, ", .family = &gm_family_%.*s", (int)size, value);
+        } else if (word == ROW) {
+            fprintf(out, ", .coefficients = &%.*s", (int)size, value);
+        } else if (word == NEEDS) {
+            put_needs(out, text, line.value);
+        } else if (word >= FACET) {
+            continue;
         } else if (word == ORDER) {
             fprintf(out, ", .order = %.*s", (int)size, value);
         } else if (word == CLAIMS) {
@@ -224,11 +319,15 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
             put_text(out, words[word], text, line.value);
         }
     }
+    put_facets(out, text, length, fault);
+    for (size_t i = 0; with_rows[i]; i++) {
+        put_rows(out, text, length, with_rows[i], fault);
+    }
     fputc('\n', out);
     return !fault->sentence[0];
 }
 
-static bool put_file(FILE *out, const char *path, enum family family)
+static bool put_file(FILE *out, const char *path, enum family family, bool row)
 {
     size_t length = 0;
     char *text = gm_input_read(path, &length), name[64];
@@ -239,7 +338,7 @@ static bool put_file(FILE *out, const char *path, enum family family)
     struct gm_fault fault = {.sentence = "it could not be read"};
     const bool put = text && (family == TEXTS ? put_texts(out, text, length, &fault)
                                               : gm_written_open(&scheme, text, 0, length, NULL, &fault) &&
-                                                    put_scheme(out, &scheme, name, family));
+                                                    put_scheme(out, &scheme, name, family, row));
     if (!put) {
         fprintf(stderr, "%s: %s\n", path, fault.sentence[0] ? fault.sentence : "it is not a row of a family");
     }
@@ -251,13 +350,19 @@ static bool put_file(FILE *out, const char *path, enum family family)
 int main(int argc, char *argv[])
 {
     enum family family = 0;
-    while (argc > 3 && family < FAMILIES && strcmp(argv[1], families[family]) != 0) {
+    while (argc > 3 && family < FAMILIES && strcmp(argv[1], families[family].name) != 0) {
         family++;
     }
     FILE *out = argc > 3 && family < FAMILIES ? fopen(argv[2], "w") : NULL;
     bool good = out != NULL;
     for (int i = 3; i < argc && good; i++) {
-        good = put_file(out, argv[i], family);
+        good = put_file(out, argv[i], family, false);
+    }
+    if (good && families[family].type) {
+        fprintf(out, "#define GM_SCHEMES_%s", families[family].name);
+    }
+    for (int i = 3; i < argc && good && families[family].type; i++) {
+        good = put_file(out, argv[i], family, true);
     }
     return out && fclose(out) == 0 && good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

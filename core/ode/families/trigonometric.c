@@ -104,15 +104,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-#define TRIGONOMETRIC .family = &gm_family_trigonometric, .needs = GM_NEEDS_FAST_LINEAR
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_mollified2, .coefficients = &mollified, TRIGONOMETRIC},
-    {GM_TEXTS_gautschi2, .coefficients = &gautschi, TRIGONOMETRIC},
-};
-
 const struct gm_family gm_family_trigonometric = {
     .title = "trigonometric",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .halves = 1, .vectors = VECTORS, .evaluated_at_start = true),
+    GM_MEMBERS_WITH_MEMORY(trigonometric, .step = step, .halves = 1, .vectors = VECTORS,
+                           .evaluated_at_start = true),
     .start = start,
 };

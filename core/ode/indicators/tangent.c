@@ -9,13 +9,10 @@
    differences at two distances are extrapolated, which eliminates the error of second order. */
 #include "core/ode/indicators/tangent.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/theory.h"

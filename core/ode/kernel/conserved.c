@@ -4,7 +4,6 @@
    from the field (struct gm_hamiltonian). */
 #include "core/ode/kernel/conserved.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,24 +3,9 @@
 #include "core/ode/kernel/members.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
-
-static void gather(const double *from, double *to, size_t count, size_t m, size_t member)
-{
-    for (size_t c = 0; c < count; c++) {
-        to[c] = from[c * m + member];
-    }
-}
-
-static void scatter(const double *from, double *to, size_t count, size_t m, size_t member)
-{
-    for (size_t c = 0; c < count; c++) {
-        to[c * m + member] = from[c];
-    }
-}
 
 bool gm_is_within(const double *y, size_t count, double limit)
 {
@@ -37,23 +22,28 @@ size_t gm_members_memory(const struct gm_problem *problem, const struct gm_schem
     return (members->remembered + members->halves * (problem->n / 2)) * problem->m;
 }
 
-/* The arguments of the body that opens a workspace. */
-struct opening {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    struct gm_members *members;
-};
+void *gm_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        void (*body)(struct gm_arena *arena, void *opening))
+{
+    struct gm_workspace opening = {problem, scheme, NULL};
+    return gm_arena_made(body, &opening) ? opening.opened : NULL;
+}
+
+void gm_workspace_close(void *workspace)
+{
+    gm_arena_close(*(struct gm_arena **)workspace);
+}
 
 static void open_members(struct gm_arena *arena, void *data)
 {
-    struct opening *opening = data;
+    struct gm_workspace *opening = data;
     const struct gm_problem *problem = opening->problem;
     const struct gm_family *family = opening->scheme->family;
     const struct gm_member_family *own = family->members;
     const size_t remembered = family->memory ? family->memory(problem, opening->scheme) / problem->m : 0;
     const size_t n = problem->n, scratch = own->room ? own->room(problem, opening->scheme)
                                                      : (own->vectors + own->squares * n) * n;
-    struct gm_members *members = opening->members = gm_arena_take(arena, 1, sizeof *members);
+    struct gm_members *members = opening->opened = gm_arena_take(arena, 1, sizeof *members);
     *members = (struct gm_members){.n = n,
                                    .remembered = remembered,
                                    .arena = arena,
@@ -65,13 +55,7 @@ static void open_members(struct gm_arena *arena, void *data)
 
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    struct opening opening = {problem, scheme, NULL};
-    return gm_arena_made(open_members, &opening) ? opening.members : NULL;
-}
-
-void gm_members_close(void *members)
-{
-    gm_arena_close(((struct gm_members *)members)->arena);
+    return gm_workspace_open(problem, scheme, open_members);
 }
 
 struct gm_progress gm_members_loop(const struct gm_task *task)
@@ -84,12 +68,12 @@ struct gm_progress gm_members_loop(const struct gm_task *task)
     progress.evaluations = family->evaluated_at_start && task->steps_before == 0 ? m : 0;
     members->carry = task->carry ? members->memory + members->remembered : NULL;
     for (size_t member = 0; member < m; member++) {
-        gather(task->y, members->y, n, m, member);
+        gm_member_take(task->y, members->y, n, m, member);
         if (members->remembered > 0) {
-            gather(task->memory, members->memory, members->remembered, m, member);
+            gm_member_take(task->memory, members->memory, members->remembered, m, member);
         }
         if (members->carry) {
-            gather(task->carry, members->carry, n, m, member);
+            gm_member_take(task->carry, members->carry, n, m, member);
         }
         for (int64_t done = 0; done < progress.done; done++) {
             enum gm_status status = family->step(task, members, &progress);
@@ -103,12 +87,12 @@ struct gm_progress gm_members_loop(const struct gm_task *task)
                 progress.done = done + 1;
             }
         }
-        scatter(members->y, task->out, n, m, member);
+        gm_member_put(members->y, task->out, n, m, member);
         if (members->remembered > 0) {
-            scatter(members->memory, task->memory_out, members->remembered, m, member);
+            gm_member_put(members->memory, task->memory_out, members->remembered, m, member);
         }
         if (members->carry) {
-            scatter(members->carry, task->carry_out, n, m, member);
+            gm_member_put(members->carry, task->carry_out, n, m, member);
         }
     }
     return progress;

@@ -7,6 +7,32 @@
 #include "core/ode/kernel/stages.h"
 #include "core/scheme.h"
 
+/* Copy `count` numbers of one of m members out of [number * m + member], or into it. */
+static inline void gm_member_take(const double *from, double *to, size_t count, size_t m, size_t member)
+{
+    for (size_t c = 0; c < count; c++) {
+        to[c] = from[c * m + member];
+    }
+}
+
+static inline void gm_member_put(const double *from, double *to, size_t count, size_t m, size_t member)
+{
+    for (size_t c = 0; c < count; c++) {
+        to[c * m + member] = from[c];
+    }
+}
+
+/* Opens a workspace by a body, whose data is a gm_workspace; NULL when out of memory. What it opens begins with the
+   pointer to the arena that owns it, by which gm_workspace_close closes it. */
+struct gm_workspace {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    void *opened;
+};
+void *gm_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                        void (*body)(struct gm_arena *arena, void *opening));
+void gm_workspace_close(void *workspace);
+
 /* The loop of families that advance a problem member by member, through its callbacks. */
 
 /* Beyond this many components no matrix is made, and an iteration that does not contract has failed. */
@@ -17,13 +43,13 @@ bool gm_newton_fits(const struct gm_problem *problem);
 
 /* The workspace: one member's state and memory, and scratch for the step. */
 struct gm_members {
-    size_t n, remembered;
-    double *y;              /* n */
-    double *memory;         /* remembered */
-    double *carry;          /* n, the compensation of the sums; NULL: plain */
-    double *scratch;        /* scratch of the requested size */
-    void *family;           /* what the family's `open` returned; or NULL */
     struct gm_arena *arena; /* owns all of this */
+    size_t n, remembered;
+    double *y;       /* n */
+    double *memory;  /* remembered */
+    double *carry;   /* n, the compensation of the sums; NULL: plain */
+    double *scratch; /* scratch of the requested size */
+    void *family;    /* what the family's `open` returned; or NULL */
 };
 
 /* Makes one step of one member: changes members->y and members->memory in place. Returns the reason of a
@@ -50,17 +76,19 @@ struct gm_member_family {
 struct gm_progress gm_members_loop(const struct gm_task *task);
 size_t gm_members_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void *gm_members_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
-void gm_members_close(void *members);
 
 /* The fields of a struct gm_family that every such family has, with those of its struct gm_member_family. */
 #define GM_MEMBERS_BY(family)                                                                                \
-    .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = gm_members_close,    \
+    .loop = gm_members_loop, .workspace_open = gm_members_workspace, .workspace_close = gm_workspace_close,  \
     .members = family
 #define GM_MEMBERS_OF_NO_ROWS(...) GM_MEMBERS_BY((&(const struct gm_member_family){__VA_ARGS__}))
-/* The kind, and the rows of a list `schemes`. */
-#define GM_ROWS .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
-#define GM_MEMBERS(...) GM_ROWS, GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
-#define GM_MEMBERS_WITH_MEMORY(...) GM_MEMBERS(__VA_ARGS__), .memory = gm_members_memory
+/* The kind, and the rows of a list `schemes`, or those that families/schemes.text gives the family. */
+#define GM_ROWS_LISTED .kind = &gm_kind_ode, .schemes = schemes, .count = GM_COUNT(schemes)
+#define GM_ROWS(family)                                                                                      \
+    .kind = &gm_kind_ode, .schemes = (const struct gm_scheme[]){GM_SCHEMES_##family},                        \
+    .count = sizeof((const struct gm_scheme[]){GM_SCHEMES_##family}) / sizeof(struct gm_scheme)
+#define GM_MEMBERS(family, ...) GM_ROWS(family), GM_MEMBERS_OF_NO_ROWS(__VA_ARGS__)
+#define GM_MEMBERS_WITH_MEMORY(family, ...) GM_MEMBERS(family, __VA_ARGS__), .memory = gm_members_memory
 
 /* Adds a step to the time that a scheme with its own steps has reached, by a compensated sum. Returns
    GM_STEP_COLLAPSE if it changes nothing. */

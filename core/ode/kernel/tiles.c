@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/basics.h"
 #include "core/ode/kernel/loops.h"
 
@@ -15,9 +16,9 @@ enum { MOST_MEMBERS = 248, IN_CACHE = 4096, LINE = 64 };
 
 /* The rows of a tile begin where lines of the cache do: else every register that is loaded lies in two of them. */
 struct tiles {
-    size_t members; /* members of a tile */
+    struct gm_arena *arena; /* owns all of this */
+    size_t members;         /* members of a tile */
     double *y, *carry, *scratch, *shared;
-    _Alignas(LINE) double storage[];
 };
 
 static size_t members_of(const struct gm_problem *problem)
@@ -27,20 +28,32 @@ static size_t members_of(const struct gm_problem *problem)
     return problem->m < most ? problem->m : most;
 }
 
+/* The arguments of the body that opens tiles. */
+struct opening {
+    const struct gm_problem *problem;
+    size_t scratch, shared;
+    struct tiles *tiles;
+};
+
+static void open_tiles(struct gm_arena *arena, void *data)
+{
+    struct opening *opening = data;
+    const struct gm_problem *problem = opening->problem;
+    struct tiles *tiles = opening->tiles = gm_arena_take(arena, 1, sizeof *tiles);
+    const size_t members = members_of(problem), gathered = members < problem->m ? problem->n * members : 0,
+                 count = 2 * gathered + opening->scratch * members + opening->shared;
+    tiles->arena = arena;
+    tiles->members = members;
+    tiles->y = gm_arena_keep(arena, aligned_alloc(LINE, (count * sizeof(double) + LINE) / LINE * LINE), free);
+    tiles->carry = tiles->y + gathered;
+    tiles->scratch = tiles->carry + gathered;
+    tiles->shared = tiles->scratch + opening->scratch * members;
+}
+
 void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t shared)
 {
-    const size_t members = members_of(problem);
-    const size_t gathered = members < problem->m ? problem->n * members : 0;
-    const size_t size = sizeof(struct tiles) + (2 * gathered + scratch * members + shared) * sizeof(double);
-    struct tiles *tiles = aligned_alloc(LINE, (size + LINE - 1) / LINE * LINE);
-    if (tiles) {
-        tiles->members = members;
-        tiles->y = tiles->storage;
-        tiles->carry = tiles->y + gathered;
-        tiles->scratch = tiles->carry + gathered;
-        tiles->shared = tiles->scratch + scratch * members;
-    }
-    return tiles;
+    struct opening opening = {problem, scratch, shared, NULL};
+    return gm_arena_made(open_tiles, &opening) ? opening.tiles : NULL;
 }
 
 /* Copies `count` members of a component-major array with m members per component into one with `width`. */

@@ -150,9 +150,7 @@ static void find_velocities(struct transform *transform, const double *y, size_t
                                                     .halved = true,
                                                     .exact = model->linear};
     struct gm_progress ignored = {0};
-    for (size_t i = 0; i < model->components; i++) {
-        transform->at[i] = y[i * m + l];
-    }
+    gm_member_take(y, transform->at, model->components, m, l);
     memcpy(transform->wanted, transform->at + model->half, model->half * sizeof *v);
     memset(v, 0, model->half * sizeof *v);
     if (!gm_newton_solve(&equations, transform->scratch, v, &ignored)) {
@@ -179,9 +177,7 @@ static double *at_velocities(const struct gm_problem *problem, const double *y, 
     memset(at + half * m, 0, half * m * sizeof *at);
     for (size_t l = 0; found && l < m; l++) {
         find_velocities(&transform, y, m, l, v);
-        for (size_t i = 0; i < half; i++) {
-            at[(half + i) * m + l] = v[i];
-        }
+        gm_member_put(v, at + half * m, half, m, l);
     }
     return at;
 }

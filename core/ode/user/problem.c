@@ -3,11 +3,9 @@
 #include "core/ode/user/problem.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/basics.h"
 #include "core/model/equations.h"
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/kernel/members.h"

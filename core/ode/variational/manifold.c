@@ -210,8 +210,8 @@ void gm_manifold_field(const struct gm_problem *problem, const double *y, double
     double *state = scratch, *rates = scratch ? scratch + n : NULL;
     for (size_t l = 0; l < m; l++) {
         const struct gm_manifold manifold = gm_manifold_lay(problem, scratch ? scratch + 2 * n : NULL);
-        for (size_t i = 0; scratch && i < n; i++) {
-            state[i] = y[i * m + l];
+        if (scratch) {
+            gm_member_take(y, state, n, m, l);
         }
         const bool found = scratch && accelerate(&manifold, state, rates);
         for (size_t i = 0; i < n; i++) {

@@ -2,10 +2,8 @@
 /* The picture of a user-defined system: bodies and rods, or the phase plane, with the past faint behind the
    present; the section; conserved and observed quantities. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/symbol.h"
 #include "scenes/common/system/texts.h"

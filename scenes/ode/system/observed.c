@@ -13,6 +13,7 @@
 #include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
 #include "core/schemes.h"
 #include "scenes/common/rows.h"
@@ -48,11 +49,9 @@ static double legendre(const struct gm_view *view, bool magnitudes)
 {
     const size_t n = view->problem->n, m = view->problem->m;
     double *centre = malloc(2 * n * sizeof *centre), value = NAN, sum = 0, size = 0;
-    for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + gm_system_centre(view)];
-    }
     if (centre) {
-        gm_ode_of(view->problem)->hamiltonian->energy(view->problem, centre, &value, 1);
+        gm_member_take(view->state, centre, n, m, gm_system_centre(view));
+        value = gm_energy(view->problem, centre);
     }
     if (centre && magnitudes) {
         gm_field(view->problem, centre, centre + n, 1);
@@ -82,10 +81,10 @@ static struct gm_manifold_defects defects_of(const struct gm_view *view)
     const size_t n = view->problem->n, m = view->problem->m;
     struct gm_manifold_defects defects = {NAN, NAN};
     double *centre = malloc(n * sizeof *centre);
-    for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + gm_system_centre(view)];
+    if (centre) {
+        gm_member_take(view->state, centre, n, m, gm_system_centre(view));
+        defects = gm_manifold_defects(view->problem, centre);
     }
-    defects = centre ? gm_manifold_defects(view->problem, centre) : defects;
     free(centre);
     return defects;
 }

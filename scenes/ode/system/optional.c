@@ -181,8 +181,8 @@ static double *last_of(const struct gm_view *view, const double *state)
 {
     const size_t n = view->problem->n - 2 * view->problem->passive, m = view->problem->m;
     double *last = malloc(n * sizeof *last);
-    for (size_t c = 0; last && c < n; c++) {
-        last[c] = state[c * m + m - 1];
+    if (last) {
+        gm_member_take(state, last, n, m, m - 1);
     }
     return last;
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A user-defined system in space: its surfaces with axes through them, or the box of its range. */
-#include "core/functions/functions.h"
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>

@@ -172,28 +172,15 @@ static enum gm_status start(const struct gm_task *task)
     return good ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-#define CONTROLLED(...)                                                                                      \
-    .family = &gm_family_controlled_steps, .coefficients = &(const struct row)                               \
-    {                                                                                                        \
-        __VA_ARGS__                                                                                          \
-    }
-#define BY_MONITOR(phi, facets) CONTROLLED(.base = phi), .needs = GM_NEEDS_MONITOR | (facets)
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_controlled_verlet2, BY_MONITOR("verlet", GM_NEEDS_SPLIT)},
-    {GM_TEXTS_controlled_blanes_moan4, BY_MONITOR("blanes-moan4", GM_NEEDS_SPLIT)},
-    {GM_TEXTS_controlled_blanes_moan_nystrom6,
-     BY_MONITOR("blanes-moan-nystrom6", GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM)},
-    {GM_TEXTS_controlled_kahan_li8, BY_MONITOR("kahan-li8", GM_NEEDS_SPLIT)},
-    {GM_TEXTS_controlled_gauss4, BY_MONITOR("gauss4", 0)},
-    {GM_TEXTS_controlled_gauss8, BY_MONITOR("gauss8", 0)},
-    {GM_TEXTS_error_controlled_verlet, CONTROLLED(.base = "verlet", .by_error = true),
-     .needs = GM_NEEDS_SPLIT},
-};
+static const struct row verlet = {.base = "verlet"}, blanes_moan4 = {.base = "blanes-moan4"},
+                        blanes_moan_nystrom6 = {.base = "blanes-moan-nystrom6"},
+                        kahan_li8 = {.base = "kahan-li8"}, gauss4 = {.base = "gauss4"},
+                        gauss8 = {.base = "gauss8"}, verlet_by_error = {.base = "verlet", .by_error = true};
 
 const struct gm_family gm_family_controlled_steps = {
     .title = "controlled steps",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .open = open_work, .remembered = REMEMBERED, .vectors = 4),
+    GM_MEMBERS_WITH_MEMORY(controlled_steps, .step = step, .open = open_work, .remembered = REMEMBERED,
+                           .vectors = 4),
     .parameters = gm_settings_of_sums,
     .start = start,
     .workspace_reset = workspace_reset,

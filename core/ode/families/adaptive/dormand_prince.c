@@ -254,13 +254,9 @@ static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *sc
     gm_coefficients_write(coefficients, 0, a[0], STAGES, a[USED]);
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_dopri5, .family = &gm_family_dormand_prince},
-};
-
 const struct gm_family gm_family_dormand_prince = {
     .title = "Dormand-Prince",
-    GM_ROWS,
+    GM_ROWS(dormand_prince),
     .parameters = gm_settings_of_tolerance,
     .coefficients_open = coefficients_open,
     .loop = loop,

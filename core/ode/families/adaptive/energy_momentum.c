@@ -169,14 +169,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_symplectic_energy_momentum2, .family = &gm_family_energy_momentum,
-     .needs = GM_NEEDS_ACTION | GM_NEEDS_ENERGY},
-};
-
 const struct gm_family gm_family_energy_momentum = {
     .title = "symplectic-energy-momentum",
-    GM_MEMBERS_WITH_MEMORY(.step = midpoint_step, .remembered = REMEMBERED, .room = room_of),
+    GM_MEMBERS_WITH_MEMORY(energy_momentum, .step = midpoint_step, .remembered = REMEMBERED, .room = room_of),
     .parameters = gm_settings_of_variational_time,
     .start = start,
     .adaptive = true,

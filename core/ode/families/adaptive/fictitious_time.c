@@ -73,13 +73,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_levi_civita, .family = &gm_family_fictitious_time, .needs = GM_NEEDS_KEPLER_SPLIT},
-};
-
 const struct gm_family gm_family_fictitious_time = {
     .title = "fictitious time",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = 1),
+    GM_MEMBERS_WITH_MEMORY(fictitious_time, .step = step, .remembered = 1),
     .start = start,
     .adaptive = true,
 };

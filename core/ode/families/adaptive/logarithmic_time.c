@@ -106,19 +106,9 @@ static enum gm_status start(const struct gm_task *task)
     return gm_energy(task->problem, members->scratch) < 0 ? GM_OK : GM_STEP_COLLAPSE;
 }
 
-#define LOGARITHMIC .family = &gm_family_logarithmic_time, .needs = GM_NEEDS_ATTRACTION
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_logh2, .coefficients = &gm_composition_none, LOGARITHMIC},
-    {GM_TEXTS_logh_suzuki4, .coefficients = &gm_composition_suzuki4, LOGARITHMIC},
-    {GM_TEXTS_logh_kahan_li6, .coefficients = &gm_composition_kahan_li6, LOGARITHMIC},
-    {GM_TEXTS_logh_kahan_li8, .coefficients = &gm_composition_kahan_li8, LOGARITHMIC},
-    {GM_TEXTS_logh_sofroniou_spaletta10, .coefficients = &gm_composition_sofroniou_spaletta10, LOGARITHMIC},
-};
-
 const struct gm_family gm_family_logarithmic_time = {
     .title = "logarithmic Hamiltonian",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED, .vectors = 2),
+    GM_MEMBERS_WITH_MEMORY(logarithmic_time, .step = step, .remembered = REMEMBERED, .vectors = 2),
     .start = start,
     .adaptive = true,
 };

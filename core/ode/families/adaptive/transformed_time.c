@@ -114,18 +114,9 @@ static size_t room(const struct gm_problem *problem, const struct gm_scheme *sch
     return (2 + 2 * (size_t)((const struct gm_tableau *)scheme->coefficients)->stages) * problem->n;
 }
 
-#define IN_POINCARES_TIME .family = &gm_family_transformed_time, .needs = GM_NEEDS_ENERGY | GM_NEEDS_MONITOR
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_poincare_midpoint2, .coefficients = &gm_implicit_midpoint, IN_POINCARES_TIME},
-    {GM_TEXTS_poincare_gauss4, .coefficients = &gm_implicit_gauss4, IN_POINCARES_TIME},
-    {GM_TEXTS_poincare_gauss6, .coefficients = &gm_implicit_gauss6, IN_POINCARES_TIME},
-    {GM_TEXTS_poincare_gauss8, .coefficients = &gm_implicit_gauss8, IN_POINCARES_TIME},
-};
-
 const struct gm_family gm_family_transformed_time = {
     .title = "transformed time",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED, .room = room),
+    GM_MEMBERS_WITH_MEMORY(transformed_time, .step = step, .remembered = REMEMBERED, .room = room),
     .start = start,
     .adaptive = true,
 };

@@ -209,18 +209,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_variational_rectangle, .family = &gm_family_variational_time, .coefficients = &rectangle,
-     .needs = GM_NEEDS_LAGRANGIAN},
-    {GM_TEXTS_variational_rectangle_restart, .family = &gm_family_variational_time,
-     .coefficients = &rectangle_restart, .needs = GM_NEEDS_LAGRANGIAN},
-    {GM_TEXTS_variational_midpoint, .family = &gm_family_variational_time, .coefficients = &midpoint,
-     .needs = GM_NEEDS_LAGRANGIAN},
-};
-
 const struct gm_family gm_family_variational_time = {
     .title = "variational, with variable time step",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .remembered = REMEMBERED),
+    GM_MEMBERS_WITH_MEMORY(variational_time, .step = step, .remembered = REMEMBERED),
     .parameters = gm_settings_of_variational_time,
     .start = start,
     .adaptive = true,

@@ -6,8 +6,6 @@
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
-#include <stdio.h>
-
 #include "core/ode/families/family.h"
 #include "core/ode/variational/action.h"
 #include "core/schemes.h"
@@ -198,17 +196,13 @@ enum gm_status gm_held_start(const struct gm_task *task)
     const size_t m = task->problem->m;
     double *memory = task->memory_out, off[GM_MOST_CONSERVED], values[GM_MOST_CONSERVED];
     for (size_t member = 0; held->count > 0 && member < m; member++) {
-        for (size_t c = 0; c < held->n; c++) {
-            held->z[c] = task->y[c * m + member];
-        }
-        for (size_t j = 0; j < held->count; j++) {
-            values[j] = memory[(GM_HELD_VALUES + j) * m + member];
-        }
+        gm_member_take(task->y, held->z, held->n, m, member);
+        gm_member_take(memory + GM_HELD_VALUES * m, values, held->count, m, member);
         gm_held_turn(held, held->z);
         const double miss = gm_held_miss(held, values, held->z, off);
         const bool keeps = memory[GM_HELD_IS_SET * m + member] == 1 && miss <= still;
-        for (size_t j = 0; !keeps && j < held->count; j++) {
-            memory[(GM_HELD_VALUES + j) * m + member] = held->values[j];
+        if (!keeps) {
+            gm_member_put(held->values, memory + GM_HELD_VALUES * m, held->count, m, member);
         }
         memory[GM_HELD_IS_SET * m + member] = 1;
     }

@@ -60,9 +60,9 @@ enum gm_status gm_held_start(const struct gm_task *task);
 const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
 #define GM_HELD_FAMILY(make)                                                                                 \
-    .kind = &gm_kind_ode, GM_MEMBERS_OF_NO_ROWS(.step = make, .open = gm_held_open),                         \
-    .workspace_reset = gm_held_reset, .memory = gm_held_memory, .start = gm_held_start,                      \
-    .lacks = gm_held_lacks
+    GM_MEMBERS_OF_NO_ROWS(.step = make, .open = gm_held_open),                                               \
+        .workspace_reset = gm_held_reset, .memory = gm_held_memory, .start = gm_held_start,                  \
+        .lacks = gm_held_lacks
 
 /* An invariant is met at this part of its scale, an iteration ends after this number of corrections. */
 #define GM_HELD_MET 1e-12

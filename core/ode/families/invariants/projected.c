@@ -92,22 +92,12 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-#define ONTO_CONSTRAINTS(phi)                                                                                \
-    .family = &gm_family_projected, .needs = GM_NEEDS_CONSTRAINTS,                                           \
-    .coefficients = &(const struct gm_holding)                                                               \
-    {                                                                                                        \
-        .base = phi, .constraints = true                                                                     \
-    }
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_projected_gauss4, ONTO_CONSTRAINTS("gauss4")},
-    {GM_TEXTS_projected_gauss6, ONTO_CONSTRAINTS("gauss6")},
-    {GM_TEXTS_projected_rk4, ONTO_CONSTRAINTS("rk4")},
-};
+static const struct gm_holding gauss4 = {.base = "gauss4", .constraints = true},
+                               gauss6 = {.base = "gauss6", .constraints = true},
+                               rk4 = {.base = "rk4", .constraints = true};
 
 const struct gm_family gm_family_projected = {
     .title = "projected onto invariants",
-    .schemes = schemes,
-    .count = GM_COUNT(schemes),
+    GM_ROWS(projected),
     GM_HELD_FAMILY(step),
 };

@@ -75,6 +75,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 }
 
 const struct gm_family gm_family_relaxed = {
+    .kind = &gm_kind_ode,
     .title = "relaxed along the step",
     GM_HELD_FAMILY(step),
     .adaptive = true,

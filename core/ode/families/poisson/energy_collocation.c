@@ -107,14 +107,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-#define COLLOCATION .family = &gm_family_energy_collocation, .needs = GM_NEEDS_POISSON
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_energy_collocation2, .coefficients = &one, COLLOCATION},
-    {GM_TEXTS_energy_collocation4, .coefficients = &two, COLLOCATION},
-};
-
 const struct gm_family gm_family_energy_collocation = {
     .title = "energy-preserving collocation",
-    GM_MEMBERS(.step = step, .vectors = 3 * MOST + 2, .squares = 1),
+    GM_MEMBERS(energy_collocation, .step = step, .vectors = 3 * MOST + 2, .squares = 1),
 };

@@ -162,15 +162,7 @@ static const struct crouch_grossman four = {
      {0.3552358559023322, 0.2390958372307326, 1.3918565724203246, -1.1092979392113565}},
     {0.1370831520630755, -0.0183698531564020, 0.7397813985370780, -0.1907142565505889, 0.3322195591068374}};
 
-#define LIE_GROUP .family = &gm_family_lie_group, .needs = GM_NEEDS_GROUP
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_rkmk4, .coefficients = &none, LIE_GROUP},
-    {GM_TEXTS_crouch_grossman3, .coefficients = &three, LIE_GROUP},
-    {GM_TEXTS_crouch_grossman4, .coefficients = &four, LIE_GROUP},
-};
-
 const struct gm_family gm_family_lie_group = {
     .title = "Lie groups",
-    GM_MEMBERS(.step = step, .vectors = VECTORS),
+    GM_MEMBERS(lie_group, .step = step, .vectors = VECTORS),
 };

@@ -61,11 +61,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_discrete_moser_veselov2, .family = &gm_family_moser_veselov, .needs = GM_NEEDS_FREE_BODY},
-};
-
 const struct gm_family gm_family_moser_veselov = {
     .title = "discrete Moser-Veselov",
-    GM_MEMBERS(.step = step),
+    GM_MEMBERS(moser_veselov, .step = step),
 };

@@ -127,13 +127,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 
 static gm_member_step *const by_axes = about_axes, *const on_spheres = spherical_midpoint;
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_rotations2, .family = &gm_family_rotations, .coefficients = &by_axes, .needs = GM_NEEDS_AXES},
-    {GM_TEXTS_spherical_midpoint2, .family = &gm_family_rotations, .coefficients = &on_spheres,
-     .needs = GM_NEEDS_ROTATIONS},
-};
-
 const struct gm_family gm_family_rotations = {
     .title = "rotations",
-    GM_MEMBERS(.step = step, .vectors = 4),
+    GM_MEMBERS(rotations, .step = step, .vectors = 4),
 };

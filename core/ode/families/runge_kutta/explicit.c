@@ -107,10 +107,10 @@ const struct gm_family gm_family_explicit = {
     .over_kernels = GM_OVER_EXPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "explicit Runge-Kutta",
-    GM_ROWS,
+    GM_ROWS_LISTED,
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .carries_passive = true,
     .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_close = gm_workspace_close,
 };

@@ -14,12 +14,7 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
-/* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) const struct gm_tableau gm_implicit_##identifier = {__VA_ARGS__};
-#define GM_SCHEME_TEXTS(...)
-#include "core/implicit_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
+#include "core/implicit_schemes.def" /* the rows, which the build writes by share/schemes */
 
 /* The loop for an n chosen at run time, through the problem's field, by the rules of the loop over kernels: a
    member's bits depend neither on the others nor on the loop. A passive particle whose iteration does not
@@ -58,41 +53,20 @@ static struct stage_scratch stages_of(double *scratch, size_t stages, size_t n, 
     };
 }
 
-/* One of the two. */
-struct work {
-    void *tiles, *modes;
-};
-
-static void workspace_close(void *workspace)
+/* True if waves are solved for, by modes.c. */
+static bool is_by_modes(const struct gm_problem *problem)
 {
-    struct work *work = workspace;
-    if (work->modes) {
-        gm_members_close(work->modes);
-    }
-    free(work->tiles);
-    free(work);
+    return gm_ode_of(problem)->semilinear && problem->m == 1;
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_tableau *row = scheme->coefficients;
-    const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
-        return NULL;
-    }
-    if (gm_ode_of(problem)->semilinear && problem->m == 1) {
-        work->modes = gm_members_workspace(problem, scheme);
-    } else {
-        work->tiles =
-            gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
-                          gm_newton_fits(problem) ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
-    }
-    if (!work->modes && !work->tiles) {
-        workspace_close(work);
-        return NULL;
-    }
-    return work;
+    const size_t n = gm_tile_components(problem),
+                 stages = (size_t)((const struct gm_tableau *)scheme->coefficients)->stages;
+    return is_by_modes(problem)
+               ? gm_members_workspace(problem, scheme)
+               : gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
+                               gm_newton_fits(problem) ? 2 * n + gm_stage_solver_room(problem, stages) : 0);
 }
 
 /* Updates components [from, to) of the increments, z := h a f, of the members that still iterate, and the sum
@@ -418,24 +392,10 @@ GM_STEPS_OF_TILE(step_of)
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    const struct work *work = task->workspace;
-    struct gm_task part = *task;
-    if (work->modes) {
-        part.workspace = work->modes;
-        return gm_members_loop(&part);
-    }
-    part.workspace = work->tiles;
-    return gm_tiles_advance(&part, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
+    return is_by_modes(task->problem) ? gm_members_loop(task)
+                                      : gm_tiles_advance(task, task->scheme->coefficients,
+                                                         task->problem->m == 1 ? step_one : step_many);
 }
-
-static const struct gm_scheme schemes[] = {
-#define GM_SCHEME_ROW(...)
-#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
-    {.family = &gm_family_implicit, .coefficients = &gm_implicit_##identifier, __VA_ARGS__},
-#include "core/implicit_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-};
 
 /* A composition of steps g_k h is a method too, with the stages of all steps: a_ij of a step is g_k a_ij, and
    g_l b_j of each earlier one. */
@@ -464,11 +424,11 @@ const struct gm_family gm_family_implicit = {
     .over_kernels = GM_OVER_IMPLICIT,
     .coefficients_open = gm_tableau_coefficients_open,
     .title = "implicit Runge-Kutta",
-    GM_ROWS,
+    GM_ROWS(implicit),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .members = &gm_implicit_modes,
     .carries_passive = true,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = gm_workspace_close,
 };

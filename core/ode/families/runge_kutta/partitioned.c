@@ -59,16 +59,6 @@ static const struct gm_partitioned_row lobatto4 = {
     .d = {1. / 6, 2. / 3, 1. / 6},
 };
 
-#define PARTITIONED .family = &gm_family_partitioned
-#define INSEPARABLE PARTITIONED, .needs = GM_NEEDS_HAMILTONIAN | GM_NEEDS_INSEPARABLE
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_symplectic_euler, .coefficients = &symplectic_euler, INSEPARABLE},
-    {GM_TEXTS_symplectic_euler_adjoint, .coefficients = &symplectic_euler_adjoint, INSEPARABLE},
-    {GM_TEXTS_lobatto2, .coefficients = &lobatto2, INSEPARABLE},
-    {GM_TEXTS_lobatto4, .coefficients = &lobatto4, .needs = GM_NEEDS_HAMILTONIAN, PARTITIONED},
-};
-
 static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *scheme,
                               struct gm_coefficients *coefficients)
 {
@@ -80,6 +70,6 @@ static void coefficients_open(struct gm_arena *arena, const struct gm_scheme *sc
 
 const struct gm_family gm_family_partitioned = {
     .title = "partitioned Runge-Kutta",
-    GM_MEMBERS(.step = step, .room = room),
+    GM_MEMBERS(partitioned, .step = step, .room = room),
     .coefficients_open = coefficients_open,
 };

@@ -71,16 +71,9 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-#define TAO .family = &gm_family_extended_phase_space, .needs = GM_NEEDS_HAMILTONIAN
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_tao2, .coefficients = &gm_composition_none, TAO},
-    {GM_TEXTS_tao4, .coefficients = &gm_composition_yoshida4, TAO},
-};
-
 const struct gm_family gm_family_extended_phase_space = {
     .title = "extended phase space",
-    GM_MEMBERS_WITH_MEMORY(.step = step, .halves = 2, .vectors = 2),
+    GM_MEMBERS_WITH_MEMORY(extended_phase_space, .step = step, .halves = 2, .vectors = 2),
     .parameters = gm_settings_of_tao,
     .start = start,
     .doubled = true,

@@ -7,7 +7,6 @@
 #include "core/ode/families/splitting/linear_flow.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"

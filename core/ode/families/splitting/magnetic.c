@@ -79,13 +79,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_boris2, .family = &gm_family_magnetic, .needs = GM_NEEDS_MAGNETIC},
-    {GM_TEXTS_magnetic_splitting2, .family = &gm_family_magnetic, .needs = GM_NEEDS_MAGNETIC,
-     .coefficients = "exp"},
-};
+static const bool by_exponential = true;
 
 const struct gm_family gm_family_magnetic = {
     .title = "rotation by a magnetic field",
-    GM_MEMBERS(.step = step),
+    GM_MEMBERS(magnetic, .step = step),
 };

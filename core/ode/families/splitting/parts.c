@@ -360,9 +360,15 @@ static void list_parts(struct work *work)
 
 static void open_work(struct gm_arena *arena, void *data)
 {
-    struct work *work = data;
-    const size_t n = work->problem->n;
+    struct gm_workspace *opening = data;
+    struct work *work = opening->opened = gm_arena_take(arena, 1, sizeof *work);
+    const size_t n = opening->problem->n;
     size_t largest = n;
+    *work = (struct work){.arena = arena,
+                          .problem = opening->problem,
+                          .scheme = opening->scheme,
+                          .row = opening->scheme->coefficients,
+                          .dt = NAN};
     gm_formula_open(&work->graph);
     gm_arena_keep(arena, &work->graph, gm_formula_close);
     (work->row->parts > 0 ? list_parts : list_pieces)(work);
@@ -385,31 +391,14 @@ static void open_work(struct gm_arena *arena, void *data)
 static struct work *open_by(const struct gm_problem *problem, const struct gm_scheme *scheme,
                             char sentence[GM_FAULT_SENTENCE])
 {
-    struct work *work = calloc(1, sizeof *work);
-    if (!work) {
-        return NULL;
+    struct gm_arena *arena = gm_arena_open();
+    struct gm_workspace opening = {problem, scheme, NULL};
+    if (gm_arena_run(arena, open_work, &opening)) {
+        return opening.opened;
     }
-    *work = (struct work){.arena = gm_arena_open(),
-                          .problem = problem,
-                          .scheme = scheme,
-                          .row = scheme->coefficients,
-                          .dt = NAN};
-    if (!gm_arena_run(work->arena, open_work, work)) {
-        snprintf(sentence, GM_FAULT_SENTENCE, "%s", gm_arena_reason(work->arena));
-        gm_arena_close(work->arena);
-        free(work);
-        return NULL;
-    }
-    return work;
-}
-
-static void workspace_close(void *data)
-{
-    struct work *work = data;
-    if (work) {
-        gm_arena_close(work->arena);
-    }
-    free(work);
+    snprintf(sentence, GM_FAULT_SENTENCE, "%s", gm_arena_reason(arena));
+    gm_arena_close(arena);
+    return NULL;
 }
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -426,9 +415,11 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
         return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
-    const bool opened = work != NULL;
-    workspace_close(work);
-    return opened ? NULL : sentence;
+    if (!work) {
+        return sentence;
+    }
+    gm_workspace_close(work);
+    return NULL;
 }
 
 /* ---- steps ---- */
@@ -548,14 +539,10 @@ static void convert(struct work *work, bool jacobi, double *y)
     const struct gm_problem *problem = work->problem;
     const size_t n = problem->n, m = problem->m;
     for (size_t l = 0; l < m && work->jacobi != jacobi; l++) {
-        for (size_t c = 0; c < n; c++) {
-            work->member[c] = y[c * m + l];
-        }
+        gm_member_take(y, work->member, n, m, l);
         (jacobi ? gm_jacobi_from_state : gm_jacobi_to_state)(gm_ode_of(problem)->gravity, work->member,
                                                              work->scratch);
-        for (size_t c = 0; c < n; c++) {
-            y[c * m + l] = work->member[c];
-        }
+        gm_member_put(work->member, y, n, m, l);
     }
     work->jacobi = jacobi;
 }
@@ -575,13 +562,9 @@ static bool advance_flow(const struct gm_task *task, struct work *work, size_t n
         good = advance_member(task, work, number, h, y, progress);
     }
     for (size_t l = 0; l < m && m > 1 && good && work->parts[flow->part].how != VOLUME; l++) {
-        for (size_t c = 0; c < n; c++) {
-            work->member[c] = y[c * m + l];
-        }
+        gm_member_take(y, work->member, n, m, l);
         good = advance_member(task, work, number, h, work->member, progress);
-        for (size_t c = 0; c < n; c++) {
-            y[c * m + l] = work->member[c];
-        }
+        gm_member_put(work->member, y, n, m, l);
     }
     const bool timed = gm_ode_of(problem)->parts && gm_ode_of(problem)->parts->timed && work->row->parts > 0;
     for (size_t l = 0; l < m && timed && flow->part == work->carrier; l++) {
@@ -667,14 +650,8 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
     return known ? words[part.how] : NULL;
 }
 
-#define PARTS .family = &gm_family_parts, .needs
-#define GM_SCHEME_ROW(identifier, ...)                                                                       \
-    static const struct gm_parts_row identifier = {                                                          \
-        .parts = 2, .list = {{"kinetic", NULL}, {"potential", NULL}}, __VA_ARGS__};
-#define GM_SCHEME_TEXTS(identifier, ...)
 #include "core/corrected_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
+
 static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
                                                        .list = {{"interaction", NULL}, {"kepler", NULL}}},
@@ -685,27 +662,13 @@ static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5
                                  suzuki4 = {.of_pieces = &gm_composition_suzuki4},
                                  kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_volume_splitting1, .coefficients = &once, PARTS = GM_NEEDS_VOLUME},
-    {GM_TEXTS_volume_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_VOLUME},
-    {GM_TEXTS_impulse2, .coefficients = &rest_linear, PARTS = GM_NEEDS_FAST_LINEAR},
-    {GM_TEXTS_wisdom_holman2, .coefficients = &interaction_kepler, PARTS = GM_NEEDS_KEPLER},
-    {GM_TEXTS_bracket_splitting2, .coefficients = &twice, PARTS = GM_NEEDS_PIECES},
-    {GM_TEXTS_bracket_splitting4, .coefficients = &suzuki4, PARTS = GM_NEEDS_PIECES},
-    {GM_TEXTS_bracket_splitting6, .coefficients = &kahan_li6, PARTS = GM_NEEDS_PIECES},
-#define GM_SCHEME_ROW(identifier, ...)
-#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
-    {.coefficients = &identifier, .family = &gm_family_parts, __VA_ARGS__},
-#include "core/corrected_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-};
+static const struct gm_scheme schemes[] = {GM_SCHEMES_parts GM_SCHEMES_corrected};
 
 const struct gm_family gm_family_parts = {
     .title = "splitting by parts",
-    GM_ROWS,
+    GM_ROWS_LISTED,
     .loop = loop,
     .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
+    .workspace_close = gm_workspace_close,
     .lacks = lacks,
 };

@@ -13,21 +13,7 @@
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
-/* The rows, which the build writes by share/schemes. */
-#define GM_SCHEME_ROW(identifier, ...) static const struct gm_splitting identifier = {__VA_ARGS__};
-#define GM_SCHEME_TEXTS(...)
-#include "core/splitting_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-
-static const struct gm_scheme schemes[] = {
-#define GM_SCHEME_ROW(...)
-#define GM_SCHEME_TEXTS(identifier, ...)                                                                     \
-    {.family = &gm_family_splitting, .coefficients = &identifier, __VA_ARGS__},
-#include "core/splitting_schemes.def"
-#undef GM_SCHEME_ROW
-#undef GM_SCHEME_TEXTS
-};
+#include "core/splitting_schemes.def" /* the rows, which the build writes by share/schemes */
 
 /* Writes each piece as a stage that depends on those before it. A first kick uses the last force of the step
    before. */
@@ -108,9 +94,9 @@ const struct gm_family gm_family_splitting = {
     .over_kernels = GM_OVER_SPLITTING,
     .coefficients_open = coefficients_open,
     .title = "splitting",
-    GM_ROWS,
+    GM_ROWS(splitting),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_close = gm_workspace_close,
 };

@@ -136,12 +136,8 @@ static size_t room_of(const struct gm_problem *problem, const struct gm_scheme *
     return 3 * place_size(n) + 4 * n + 1 + gm_newton_scratch(2 * n);
 }
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_degenerate_midpoint2, .family = &gm_family_degenerate, .needs = GM_NEEDS_DEGENERATE},
-};
-
 const struct gm_family gm_family_degenerate = {
     .title = "variational, of Lagrangians linear in the velocities",
     .parameters = gm_settings_of_sums,
-    GM_MEMBERS(.step = make_step, .room = room_of),
+    GM_MEMBERS(degenerate, .step = make_step, .room = room_of),
 };

@@ -379,29 +379,9 @@ static const struct gm_variational_row galerkin6 = {
     .c = {OF_GAUSS4, MORE_OF_GAUSS4, 1 - MORE_OF_GAUSS4, 1 - OF_GAUSS4},
 };
 
-#define VARIATIONAL .family = &gm_family_discrete_lagrangian
-#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION
-#define CONSTRAINED VARIATIONAL, .needs = GM_NEEDS_CONSTRAINTS
-#define DAMPED VARIATIONAL, .needs = GM_NEEDS_ACTION | GM_NEEDS_FRICTION
-
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_variational_midpoint2, .coefficients = &midpoint, OF_ACTION},
-    {GM_TEXTS_variational_trapezoidal2, .coefficients = &trapezoidal, OF_ACTION},
-    {GM_TEXTS_variational_simpson4, .coefficients = &simpson, OF_ACTION},
-    {GM_TEXTS_variational_galerkin2, .coefficients = &galerkin2, OF_ACTION},
-    {GM_TEXTS_variational_galerkin4, .coefficients = &galerkin4, OF_ACTION},
-    {GM_TEXTS_variational_galerkin6, .coefficients = &galerkin6, OF_ACTION},
-    {GM_TEXTS_conformal_midpoint2, .coefficients = &damped_midpoint, DAMPED},
-    {GM_TEXTS_conformal_trapezoidal2, .coefficients = &damped_trapezoidal, DAMPED},
-    {GM_TEXTS_rattle2, .coefficients = &trapezoidal, CONSTRAINED},
-    {GM_TEXTS_shake2, .coefficients = &shake, CONSTRAINED},
-    {GM_TEXTS_constrained_lobatto4, .coefficients = &simpson, CONSTRAINED},
-    {GM_TEXTS_constrained_lobatto6, .coefficients = &lobatto6, CONSTRAINED},
-};
-
 const struct gm_family gm_family_discrete_lagrangian = {
     .title = "variational, with fixed step",
-    GM_ROWS,
+    GM_ROWS(discrete_lagrangian),
     .parameters = gm_settings_of_sums,
     GM_MEMBERS_BY(&gm_variational_members),
 };

@@ -28,14 +28,9 @@ static void tables(const struct gm_settings *settings, double *values, double *s
 static const struct gm_variational_row newmark = {
     .degree = 3, .points = 4, .b = {1, -0.5, 1, -0.5}, .c = {0, 0, 1, 1}, .tables = tables};
 
-static const struct gm_scheme schemes[] = {
-    {GM_TEXTS_variational_newmark2, .family = &gm_family_newmark, .coefficients = &newmark,
-     .needs = GM_NEEDS_ACTION},
-};
-
 const struct gm_family gm_family_newmark = {
     .title = "variational Newmark",
-    GM_ROWS,
+    GM_ROWS(newmark),
     .parameters = gm_settings_of_newmark,
     GM_MEMBERS_BY(&gm_variational_members),
 };
