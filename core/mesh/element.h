@@ -59,6 +59,9 @@ void gm_elements_place(struct gm_elements *stage, const double *state);
    cannot; the caller closes them in both cases. */
 bool gm_elements_open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state);
 
+/* Computes places and velocities of labels on a mesh with a map. */
+void gm_mesh_places(const struct gm_mesh *mesh, const double *label, size_t count, double t, double *x,
+                    double *rate);
 /* Sets the places and velocities of the nodes at time t on a mesh that is uniform or known; else nothing. */
 void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage);
 
