@@ -251,7 +251,8 @@ static double share_of(const struct gm_mesh_solver *solver, size_t i)
     return solver->of.stride == 0 ? solver->row->tableau->b[i] : 1;
 }
 
-/* Adds what the slack and the multipliers do to the derivatives of momenta and forces, and their columns. */
+/* Adds what the slack and the multipliers do to the derivatives of momenta and forces, and their columns; without third
+   derivatives of ell, whose factor, the slack, is O(h^2). */
 static void add_multipliers(const struct gm_mesh_solver *solver, const struct gm_assembly *assembly,
                             struct gm_element_matrices at[GM_STAGES])
 {

@@ -145,7 +145,7 @@ static inline double gm_mesh_energy(const struct gm_mesh *mesh, const double *st
    GM_DENSE_POINTS nodes, or when out of memory. */
 enum { GM_DENSE_POINTS = 255 };
 bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix);
-/* Its rank, from eigenvalues above 1e-12 of the largest, and its condition; or false as before. det M is a product of
+/* The rank of M, from eigenvalues above 1e-12 of the largest, and its condition; or false as before. det M is a product of
    squared differences of slopes: every straight node takes 1 off the rank (their proposition 7). */
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
 
