@@ -376,8 +376,8 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
         return;
     }
     bend_of_ell(stage, mesh, e, matrices->hessian);
-    gm_elements_gradient(stage, e, matrices->gradient);
     for (size_t a = 0; a < 4; a++) {
+        matrices->gradient[a] = stage->gradient[a][e];
         matrices->bend[a] = stage->bend[a][e];
     }
 }

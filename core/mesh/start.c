@@ -262,21 +262,21 @@ double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_
     struct gm_elements stage;
     const bool good = gm_elements_open_at(&stage, mesh, state);
     double sum = good ? energy(mesh, &stage, 0) : NAN, momentum = 0, jump = 0, size = 0, least = INFINITY,
-           narrow = good ? stage.width[0] : NAN;
+           narrow = stage.memory ? stage.width[0] : NAN;
     if (good && measure == GM_MEASURE_DEFECT) {
         gm_elements_constrain(&stage, mesh);
     }
-    for (size_t k = 1; good && k <= mesh->points; k++) {
+    for (size_t k = 1; stage.memory && k <= mesh->points; k++) {
+        narrow = fmin(narrow, stage.width[k]);
         sum += energy(mesh, &stage, k);
         momentum += gm_momentum_v(&stage, k);
         least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
-        narrow = fmin(narrow, stage.width[k]);
         jump = fmax(jump, fabs(gm_jump(stage.ell, k)));
         size = fmax(size, fmax(stage.ell[k], stage.ell[k - 1]));
     }
     gm_elements_close(&stage);
     const double values[] = {sum, momentum, jump / size, least, narrow};
-    return good ? values[measure] : NAN;
+    return good || measure == GM_MEASURE_NARROWEST ? values[measure] : NAN;
 }
 
 bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix)
@@ -305,7 +305,7 @@ bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition)
 {
     const size_t n = mesh->points <= GM_DENSE_POINTS ? 2 * mesh->points : 0;
-    double *matrix = malloc((n * n + 2 * n + 1) * sizeof *matrix), *values = matrix + n * n;
+    double *matrix = malloc((n * n + 2 * n + 1) * sizeof *matrix), *values = matrix ? matrix + n * n : NULL;
     const bool good =
         matrix && gm_mesh_mass_matrix(mesh, state, matrix) && gm_eigenvalues(matrix, n, values, values + n);
     double least = INFINITY, largest = 0;

@@ -320,7 +320,6 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
 {
     const struct gm_view view = gm_lane_view(lanes[0]);
     const struct gm_mesh mesh = gm_mesh_of(&view);
-    const size_t points = mesh.points;
     const bool named = look->show != GM_MESH_CONVERGENCE;
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
@@ -333,7 +332,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
                later = lanes[0]->run->t != lanes[0]->t0;
     return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s", look->front,
                            one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "",
-                                                      points, gm_plural((double)points))
+                                                      mesh.points, gm_plural((double)mesh.points))
                                     : "",
                            gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "",
                            one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",

@@ -75,11 +75,17 @@ static gm_node_id taken(struct reading *reading, gm_node_id node)
     return node;
 }
 
+/* The density of nodes alone depends on the place alone. */
+static size_t first_input(const struct reading *reading)
+{
+    return reading->line == &density_line && reading->names->wave->system->alone ? PLACE : 0;
+}
+
 /* Returns the meaning of a name that the line has of its own, whatever the field is called, or GM_NO_NODE. */
 static gm_node_id find_own(struct reading *reading, const struct gm_name *name)
 {
     static const char *const words[] = {"alpha", "steepest", "bend", "V_u"};
-    for (size_t k = 0; reading->line->inputs[k]; k++) {
+    for (size_t k = first_input(reading); reading->line->inputs[k]; k++) {
         if (is_called(name, reading->line->inputs[k])) {
             return gm_formula_variable(&reading->graph, k);
         }
@@ -150,6 +156,12 @@ static gm_node_id read_formula(struct reading *reading, struct gm_span span)
     const bool good =
         gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, &node, &fault);
     if (!good && fault.sentence[0]) {
+        const bool unknown = strstr(fault.sentence, "there is no name ") && !strchr(fault.sentence, ';');
+        const size_t first = first_input(reading);
+        for (size_t k = first, end = strlen(fault.sentence); unknown && reading->line->inputs[k]; k++) {
+            end += (size_t)snprintf(fault.sentence + end, sizeof fault.sentence - end, "%s%s",
+                                    k == first ? "; names are " : ", ", reading->line->inputs[k]);
+        }
         refuse(reading, fault.offset, fault.sentence);
     }
     gm_arena_need(reading->arena, good);

@@ -261,8 +261,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
 {
-    const struct gm_mesh_formulas *formulas = &((const struct own *)problem->parameters)->formulas;
-    gm_tape_values(&formulas->between, at, velocity, m);
+    gm_tape_values(&((const struct own *)problem->parameters)->formulas.between, at, velocity, m);
 }
 
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
