@@ -100,7 +100,7 @@ static double add_cells(struct gm_elements *stage, const struct gm_mesh_cell *ce
             at[i * count + e] = one[i];
         }
     }
-    cell->first(cell, at, at + GM_CELL_INPUTS * count, count);
+    gm_tape_values(&cell->first, at, at + GM_CELL_INPUTS * count, count);
     for (size_t e = 0; e < count; e++) {
         const double pull = by[3 * count + e] / stage->width[e];
         stage->force_y1[e] += pull;
@@ -333,7 +333,7 @@ static void add_cell(const struct gm_elements *stage, const struct gm_mesh_cell 
     const double slope[4] = {-1 / d, g / d, 1 / d, -g / d}, pull = by[3 * stage->count + e] / (d * d);
     double at[GM_CELL_INPUTS], of[4][4], bent[4][4];
     cell_at(stage, e, at);
-    cell->second(cell, at, of);
+    gm_tape_values(&cell->second, at, of[0], 1);
     spread(0, 0, 0, 0, -pull, 2 * g * pull, bent); /* LC_s times the second derivatives of the slope */
     for (size_t a = 0; a < 4; a++) {
         for (size_t b = 0; b < 4; b++) {
@@ -376,8 +376,8 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
         return;
     }
     bend_of_ell(stage, mesh, e, matrices->hessian);
-    gm_elements_gradient(stage, e, matrices->gradient);
     for (size_t a = 0; a < 4; a++) {
+        matrices->gradient[a] = stage->gradient[a][e];
         matrices->bend[a] = stage->bend[a][e];
     }
 }

@@ -59,6 +59,9 @@ void gm_elements_place(struct gm_elements *stage, const double *state);
    cannot; the caller closes them in both cases. */
 bool gm_elements_open_at(struct gm_elements *stage, const struct gm_mesh *mesh, const double *state);
 
+/* Computes places and velocities of labels on a mesh with a map. */
+void gm_mesh_places(const struct gm_mesh *mesh, const double *label, size_t count, double t, double *x,
+                    double *rate);
 /* Sets the places and velocities of the nodes at time t on a mesh that is uniform or known; else nothing. */
 void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage);
 
@@ -75,14 +78,8 @@ bool gm_elements_measure(struct gm_elements *stage, const struct gm_mesh *mesh);
 void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh *mesh, size_t element,
                           bool constrained, struct gm_element_matrices *matrices);
 
-/* The mass matrix alone, and the gradient of ell. */
+/* The mass matrix alone. */
 void gm_elements_mass(const struct gm_elements *stage, size_t element, double mass[4][4]);
-static inline void gm_elements_gradient(const struct gm_elements *stage, size_t element, double gradient[4])
-{
-    for (size_t a = 0; a < 4; a++) {
-        gradient[a] = stage->gradient[a][element];
-    }
-}
 
 /* Momenta, and forces, at node k = 1 ... N. */
 static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)

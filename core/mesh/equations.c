@@ -251,7 +251,7 @@ static double share_of(const struct gm_mesh_solver *solver, size_t i)
     return solver->of.stride == 0 ? solver->row->tableau->b[i] : 1;
 }
 
-/* Adds what the slack and the multipliers do to the derivatives of momenta and forces, and their columns. */
+/* Adds what slack and multipliers do, and their columns, without third derivatives of ell times the slack, O(h^2). */
 static void add_multipliers(const struct gm_mesh_solver *solver, const struct gm_assembly *assembly,
                             struct gm_element_matrices at[GM_STAGES])
 {
@@ -400,7 +400,9 @@ static bool find_velocities(struct gm_mesh_solver *solver)
                     at.mass[2 * side][1] * ends->v[e] + at.mass[2 * side][3] * ends->v[e + 1];
             }
             if (constrained) {
-                gm_elements_gradient(ends, e, at.gradient);
+                for (size_t a = 0; a < 4; a++) {
+                    at.gradient[a] = ends->gradient[a][e];
+                }
                 gm_nodes_add_row(&assembly, last, columns, at.gradient);
             }
             if (width > 2) {

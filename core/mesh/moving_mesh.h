@@ -4,6 +4,7 @@
 
 #include "core/kind.h"
 #include "core/run.h"
+#include "core/tape.h"
 
 /* The facet moving-mesh: a scalar field on [first, first + length] with the Lagrangian density
        phi_t^2 / 2 - phi_X^2 / 2 - W(phi),
@@ -60,17 +61,8 @@ struct gm_density {
    the rate d_t of the width, the velocity m_t of its middle, and its slope s, in this order. */
 enum { GM_CELL_INPUTS = 4 };
 struct gm_mesh_cell {
-    /* Writes the Lagrangian of m cells and its derivatives by the four, [number * m + cell], as `at` lies. */
-    void (*first)(const struct gm_mesh_cell *cell, const double *at, double *values, size_t m);
-    /* Writes the second derivatives of one cell. */
-    void (*second)(const struct gm_mesh_cell *cell, const double *at, double values[4][4]);
-};
-
-/* A mesh that is known: at time t the nodes with these labels, which have equal distances, are at x with the
-   velocity `rate`. */
-struct gm_mesh_map {
-    void (*places)(const struct gm_mesh_map *map, const double *label, size_t count, double t, double *x,
-                   double *rate);
+    struct gm_tape first;  /* the Lagrangian, and its derivatives by the four */
+    struct gm_tape second; /* the second derivatives */
 };
 
 struct gm_mesh {
@@ -84,9 +76,10 @@ struct gm_mesh {
     const struct gm_mesh_cell *cell; /* NULL: none */
     double relax;                    /* T of a mesh that is smoothed in time; 0: it is not */
     double t;                        /* the time of states that are started or carried */
-    const struct gm_mesh_map *map;   /* NULL: nodes are at their labels */
-    /* dX/dt of free nodes at the start, at `count` places x; NULL: as the density moves */
-    void (*drift)(const void *context, const double *x, size_t count, double *rate);
+    /* of a label, which has equal distances from the next ones, and t: the node's place and velocity; NULL: nodes are
+       at their labels */
+    const struct gm_tape *map;
+    const struct gm_tape *drift; /* of x: dX/dt of free nodes at the start; NULL: as the density moves */
     const struct gm_potential *potential;
 };
 
@@ -140,6 +133,7 @@ enum gm_mesh_measure {
     GM_MEASURE_MOMENTUM,    /* the sum of dL/d(dX/dt) over the nodes */
     GM_MEASURE_DEFECT,      /* the largest |ell - ell of the neighbour| over the largest ell */
     GM_MEASURE_STRAIGHTEST, /* the least difference of the slopes on both sides of a node */
+    GM_MEASURE_NARROWEST,   /* the width of the smallest cell */
 };
 /* Measures a state; NaN where its cells are tangled, or when out of memory. */
 double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_mesh_measure measure);
@@ -147,15 +141,13 @@ static inline double gm_mesh_energy(const struct gm_mesh *mesh, const double *st
 {
     return gm_mesh_measure(mesh, state, GM_MEASURE_ENERGY);
 }
-/* The rank of the mass matrix of field and nodes, from eigenvalues above 1e-12 of the largest, and its condition.
-   Returns false above GM_DENSE_POINTS nodes, or when out of memory. det M is a product of squared differences of
-   slopes: every straight node takes 1 off the rank (Tyranowski & Desbrun 2019, proposition 7). */
+/* Writes the mass matrix M of field and nodes, 2 N x 2 N, y and X node by node (their eqs. 47-48). Returns false above
+   GM_DENSE_POINTS nodes, or when out of memory. */
 enum { GM_DENSE_POINTS = 255 };
+bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix);
+/* The rank of M, from eigenvalues above 1e-12 of the largest, and its condition; or false as before. det M is a product of
+   squared differences of slopes: every straight node takes 1 off the rank (their proposition 7). */
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
-/* Writes the blocks of the mass matrix of every node alone (their eq. 48): by y and y, by y and X, by X and X. False
-   when out of memory. */
-bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3]);
-double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state);
 
 /* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of
    matrices factored since the start. */

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The potential of the sine-Gordon equation and its exact mean over linear elements, m the mean and r the difference of the ends:
-       sine-Gordon   w = 1 - cos(m) S(r/2),   S(h) = sin(h)/h           (Tyranowski & Desbrun 2019, eq. 170) */
-
+/* The potential of the sine-Gordon equation and its exact mean over linear elements, m the mean and r the difference of
+   the ends:
+       w = 1 - cos(m) S(r/2),   S(h) = sin(h)/h           (Tyranowski & Desbrun 2019, eq. 170)
+   which has no 0/0 where the field is flat. */
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "core/functions/functions.h"
+#include "core/functions/rows.h"
 #include "core/mesh/moving_mesh.h"
-
-/* Sine-Gordon: the mean of cos over an element is cos(m) S(r / 2), S(h) = sin(h) / h, which has no 0/0 where
-   the field is flat. */
 
 /* S, S' / h and S'' for |h| < 1/2 by their series in z = h^2. */
 static inline double series(double z)
@@ -32,41 +29,18 @@ static inline double series_bend(double z)
 
 static const double wide = 0.5;
 
-/* Sine and cosine without a branch, so that loops over elements are vectorised; error below 1e-16 for
-   arguments up to 10^5: reduction by pi/2 in two parts (Cody & Waite 1980), then Taylor's polynomials. */
-static inline void sine_cosine(double x, double *sine, double *cosine)
+struct sinc {
+    double s, slope, bend; /* S, S', S'' */
+};
+
+static struct sinc sinc_of(double h)
 {
-    const double magic = 0x1.8p52;
-    const double shifted = x * (2 / M_PI) + magic;
-    const double quarters = shifted - magic;
-    const double r = (x - quarters * 0x1.921fb544p0) - quarters * 0x1.0b4611a626331p-34;
-    const double z = r * r;
-    const double s =
-        r + r * z *
-                (-1. / 6 +
-                 z * (1. / 120 +
-                      z * (-1. / 5040 +
-                           z * (1. / 362880 +
-                                z * (-1. / 39916800 + z * (1. / 6227020800 + z * (-1. / 1307674368000)))))));
-    const double c =
-        1 - z / 2 +
-        z * z *
-            (1. / 24 + z * (-1. / 720 +
-                            z * (1. / 40320 + z * (-1. / 3628800 +
-                                                   z * (1. / 479001600 + z * (-1. / 87178291200 +
-                                                                              z * (1. / 20922789888000)))))));
-    uint64_t quadrant, sine_bits, cosine_bits;
-    memcpy(&quadrant, &shifted, sizeof quadrant);
-    memcpy(&sine_bits, &s, sizeof sine_bits);
-    memcpy(&cosine_bits, &c, sizeof cosine_bits);
-    const uint64_t swapped = -(quadrant & 1);
-    const uint64_t first = (cosine_bits & swapped) | (sine_bits & ~swapped);
-    const uint64_t second = (sine_bits & swapped) | (cosine_bits & ~swapped);
-    const uint64_t sine_sign = (quadrant & 2) << 62, cosine_sign = ((quadrant + 1) & 2) << 62;
-    sine_bits = first ^ sine_sign;
-    cosine_bits = second ^ cosine_sign;
-    memcpy(sine, &sine_bits, sizeof *sine);
-    memcpy(cosine, &cosine_bits, sizeof *cosine);
+    const double z = h * h;
+    if (fabs(h) < wide) {
+        return (struct sinc){series(z), h * series_slope(z), series_bend(z)};
+    }
+    const double s = gm_sin(h) / h, slope = (gm_cos(h) - s) / h;
+    return (struct sinc){s, slope, -s - 2 * slope / h};
 }
 
 static void sine_gordon_first(const struct gm_potential *potential, const double *restrict middle,
@@ -74,23 +48,19 @@ static void sine_gordon_first(const struct gm_potential *potential, const double
                               double *restrict w_r)
 {
     (void)potential;
-    for (size_t e = 0; e < n; e++) {
-        const double h = rise[e] / 2;
-        const double z = h * h;
-        double sine, cosine;
-        sine_cosine(middle[e], &sine, &cosine);
-        const double s = series(z);
+    gm_function_rows()->sine_and_cosine(w_m, w, middle, n);
+    for (size_t e = 0; e < n; e++) { /* without a branch, so that it is vectorised */
+        const double h = rise[e] / 2, z = h * h, s = series(z), cosine = w[e];
         w[e] = 1 - cosine * s;
-        w_m[e] = sine * s;
+        w_m[e] = w_m[e] * s;
         w_r[e] = -cosine * (h * series_slope(z)) / 2;
     }
     for (size_t e = 0; e < n; e++) {
-        const double h = rise[e] / 2;
-        if (!(fabs(h) < wide)) {
-            const double s = gm_sin(h) / h, slope = (gm_cos(h) - s) / h;
-            w[e] = 1 - gm_cos(middle[e]) * s;
-            w_m[e] = gm_sin(middle[e]) * s;
-            w_r[e] = -gm_cos(middle[e]) * slope / 2;
+        if (!(fabs(rise[e] / 2) < wide)) {
+            const struct sinc of = sinc_of(rise[e] / 2);
+            w[e] = 1 - gm_cos(middle[e]) * of.s;
+            w_m[e] = gm_sin(middle[e]) * of.s;
+            w_r[e] = -gm_cos(middle[e]) * of.slope / 2;
         }
     }
 }
@@ -99,20 +69,10 @@ static void sine_gordon_second(const struct gm_potential *potential, double midd
                                double *w_mr, double *w_rr)
 {
     (void)potential;
-    const double h = rise / 2, z = h * h;
-    double s, slope, bend;
-    if (fabs(h) < wide) {
-        s = series(z);
-        slope = h * series_slope(z);
-        bend = series_bend(z);
-    } else {
-        s = gm_sin(h) / h;
-        slope = (gm_cos(h) - s) / h;
-        bend = -s - 2 * slope / h;
-    }
-    *w_mm = gm_cos(middle) * s;
-    *w_mr = gm_sin(middle) * slope / 2;
-    *w_rr = -gm_cos(middle) * bend / 4;
+    const struct sinc of = sinc_of(rise / 2);
+    *w_mm = gm_cos(middle) * of.s;
+    *w_mr = gm_sin(middle) * of.slope / 2;
+    *w_rr = -gm_cos(middle) * of.bend / 4;
 }
 
 const struct gm_potential gm_potential_sine_gordon = {

@@ -44,6 +44,23 @@ static void even(const struct gm_mesh *mesh, double *x)
     }
 }
 
+void gm_mesh_places(const struct gm_mesh *mesh, const double *label, size_t count, double t, double *x,
+                    double *rate)
+{
+    enum { BLOCK = 128 };
+    double at[2 * BLOCK], made[2 * BLOCK];
+    for (size_t from = 0, some; from < count; from += some) {
+        some = count - from < BLOCK ? count - from : BLOCK;
+        for (size_t i = 0; i < some; i++) {
+            at[i] = label[from + i];
+            at[some + i] = t;
+        }
+        gm_tape_values(mesh->map, at, made, some);
+        memcpy(x + from, made, some * sizeof *x);
+        memcpy(rate + from, made + some, some * sizeof *rate);
+    }
+}
+
 void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage)
 {
     if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN) {
@@ -51,7 +68,7 @@ void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t,
         memset(stage->v, 0, (mesh->points + 2) * sizeof *stage->v);
     }
     if (kind == GM_MESH_GIVEN && mesh->map) {
-        mesh->map->places(mesh->map, stage->x + 1, mesh->points, t, stage->x + 1, stage->v + 1);
+        gm_mesh_places(mesh, stage->x + 1, mesh->points, t, stage->x + 1, stage->v + 1);
     }
 }
 
@@ -124,7 +141,7 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
                (drifts || gm_nodes_set_in_motion(stage, &bench.matrix, bench.change));
     }
     if (drifts) {
-        mesh->drift(context, stage->x + 1, points, bench.change);
+        gm_tape_values(mesh->drift, stage->x + 1, bench.change, points);
     }
     for (size_t k = 0; k < points; k++) {
         if (!mesh->alone) {
@@ -244,11 +261,13 @@ double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_
 {
     struct gm_elements stage;
     const bool good = gm_elements_open_at(&stage, mesh, state);
-    double sum = good ? energy(mesh, &stage, 0) : NAN, momentum = 0, jump = 0, size = 0, least = INFINITY;
+    double sum = good ? energy(mesh, &stage, 0) : NAN, momentum = 0, jump = 0, size = 0, least = INFINITY,
+           narrow = stage.memory ? stage.width[0] : NAN;
     if (good && measure == GM_MEASURE_DEFECT) {
         gm_elements_constrain(&stage, mesh);
     }
-    for (size_t k = 1; good && k <= mesh->points; k++) {
+    for (size_t k = 1; stage.memory && k <= mesh->points; k++) {
+        narrow = fmin(narrow, stage.width[k]);
         sum += energy(mesh, &stage, k);
         momentum += gm_momentum_v(&stage, k);
         least = fmin(least, fabs(stage.slope[k] - stage.slope[k - 1]));
@@ -256,23 +275,27 @@ double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_
         size = fmax(size, fmax(stage.ell[k], stage.ell[k - 1]));
     }
     gm_elements_close(&stage);
-    const double values[] = {sum, momentum, jump / size, least};
-    return good ? values[measure] : NAN;
+    const double values[] = {sum, momentum, jump / size, least, narrow};
+    return good || measure == GM_MEASURE_NARROWEST ? values[measure] : NAN;
 }
 
-bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*blocks)[3])
+bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix)
 {
+    const size_t n = 2 * mesh->points;
     struct gm_elements stage;
+    if (mesh->points > GM_DENSE_POINTS) {
+        return false;
+    }
     const bool good = gm_elements_open_at(&stage, mesh, state);
-    memset(blocks, 0, mesh->points * sizeof *blocks);
-    for (size_t i = 0; good && i < 2 * stage.count; i++) {
-        const size_t e = i / 2, end = i % 2, node = e + end; /* 0 and N + 1 are held */
+    memset(matrix, 0, n * n * sizeof *matrix);
+    for (size_t e = 0; good && e < stage.count; e++) {
         struct gm_element_matrices at;
         gm_elements_matrices(&stage, mesh, e, false, &at);
-        if (node > 0 && node <= mesh->points) {
-            blocks[node - 1][0] += at.mass[2 * end][2 * end];
-            blocks[node - 1][1] += at.mass[2 * end][2 * end + 1];
-            blocks[node - 1][2] += at.mass[2 * end + 1][2 * end + 1];
+        for (size_t i = 0; i < 16; i++) {
+            const size_t a = 2 * e + i / 4, b = 2 * e + i % 4; /* 2 and 3 are of the first node that moves */
+            if (a >= 2 && b >= 2 && a < n + 2 && b < n + 2) {
+                matrix[(a - 2) * n + b - 2] += at.mass[i / 4][i % 4];
+            }
         }
     }
     gm_elements_close(&stage);
@@ -281,42 +304,20 @@ bool gm_mesh_inertia(const struct gm_mesh *mesh, const double *state, double (*b
 
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition)
 {
-    const size_t points = mesh->points, n = 2 * points;
-    struct gm_elements stage = {0};
-    double *dense = points <= GM_DENSE_POINTS ? calloc(n * n + 2 * n, sizeof *dense) : NULL;
-    bool good = dense && gm_elements_open_at(&stage, mesh, state);
-    for (size_t e = 0; good && e <= points; e++) {
-        struct gm_element_matrices at;
-        gm_elements_matrices(&stage, mesh, e, false, &at);
-        for (size_t i = 0; i < 16; i++) {
-            const size_t a = 2 * e + i / 4, b = 2 * e + i % 4; /* 2 and 3 are of the first node that moves */
-            if (a >= 2 && b >= 2 && a < n + 2 && b < n + 2) {
-                dense[(a - 2) * n + b - 2] += at.mass[i / 4][i % 4];
-            }
-        }
-    }
-    good = good && gm_eigenvalues(dense, n, dense + n * n, dense + n * n + n);
+    const size_t n = mesh->points <= GM_DENSE_POINTS ? 2 * mesh->points : 0;
+    double *matrix = malloc((n * n + 2 * n + 1) * sizeof *matrix), *values = matrix ? matrix + n * n : NULL;
+    const bool good =
+        matrix && gm_mesh_mass_matrix(mesh, state, matrix) && gm_eigenvalues(matrix, n, values, values + n);
     double least = INFINITY, largest = 0;
     for (size_t i = 0; good && i < n; i++) {
-        largest = fmax(largest, dense[n * n + i]);
-        least = fmin(least, fabs(dense[n * n + i]));
+        largest = fmax(largest, values[i]);
+        least = fmin(least, fabs(values[i]));
     }
     *rank = 0;
     for (size_t i = 0; good && i < n; i++) {
-        *rank += dense[n * n + i] > 1e-12 * largest;
+        *rank += values[i] > 1e-12 * largest;
     }
     *condition = largest / least;
-    gm_elements_close(&stage);
-    free(dense);
+    free(matrix);
     return good;
-}
-
-double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state)
-{
-    const double *x = state + gm_mesh_place(mesh);
-    double least = fmin(x[0] - mesh->first, mesh->first + mesh->length - x[mesh->points - 1]);
-    for (size_t k = 1; k < mesh->points; k++) {
-        least = fmin(least, x[k] - x[k - 1]);
-    }
-    return least;
 }

@@ -231,12 +231,11 @@ static const struct gm_parameter mesh_rows[] = {
     GM_REAL_ROW(GM_FIELD_LANE, grid.relax, "relax", "0", 0, 1e6,
                 "time T in which nodes tend to their places, for control- schemes; 0: they are there"),
 };
-static const struct gm_observable of_mesh[] = {GM_MESH_ENERGIES, GM_MESH_NODES};
 static const char *const strategies[] = {"multiplier-lobatto4", "control-gauss4", "uniform-gauss4", NULL};
 
 const struct gm_field_kind gm_field_moving_waves = {
     GM_FIELD_ROWS(mesh_rows),
-    GM_FIELD_OBSERVABLES(of_mesh),
+    GM_FIELD_OBSERVABLES(gm_mesh_observables),
     GM_FIELD_ERRORS(gm_mesh_errors),
     .moves = true,
     .no_walls = "boundary: walls mean u_x = 0, and the ends of a moving mesh hold u",
@@ -251,8 +250,7 @@ const struct gm_field_kind gm_field_moving_waves = {
 
 static double node_momentum(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_measure(&mesh, view->state, GM_MEASURE_MOMENTUM);
+    return gm_view_measure(view, GM_MEASURE_MOMENTUM);
 }
 
 /* The number of the fastest node. */

@@ -47,6 +47,9 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const size_t points = mesh.points;
     double rank, condition;
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, y)) {
+        if (free && mesh.cell && !isfinite(gm_mesh_energy(&mesh, y))) {
+            return gm_refuse(sentence, "cell: the energy of the cells is not finite at the start");
+        }
         const bool straight =
             free && !mesh.cell && gm_mesh_mass(&mesh, y, &rank, &condition) && rank < 2 * (double)points;
         return !straight ||

@@ -173,11 +173,7 @@ static void make_observables(struct gm_user_field *field)
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
-    const bool moves = field->kind->moves;
-    const struct gm_hook *hook =
-        of_file->hook && (moves || field->kind == &gm_field_waves) && of_file->hook->on_moving_mesh == moves
-            ? of_file->hook
-            : NULL;
+    const struct gm_hook *hook = field->kind == &gm_field_waves ? of_file->hook : NULL;
     const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
     const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
     for (size_t i = 0; !field->kind->equation && i < row_count; i++) {

@@ -13,7 +13,14 @@ struct gm_mesh gm_mesh_of(const struct gm_view *view)
 {
     struct gm_mesh mesh;
     gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
+    mesh.cell = view->scheme && gm_scheme_mesh(view->scheme) == GM_MESH_FREE ? mesh.cell : NULL;
     return mesh;
+}
+
+double gm_view_measure(const struct gm_view *view, enum gm_mesh_measure measure)
+{
+    const struct gm_mesh mesh = gm_mesh_of(view);
+    return gm_mesh_measure(&mesh, view->state, measure);
 }
 
 double gm_mesh_exact(const struct gm_view *view, double x, double t)
@@ -39,11 +46,6 @@ double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer)
         largest = gm_larger(largest, fabs(view.state[k] - u0 - (u1 - u0) * (x - x0) / (x1 - x0)));
     }
     return largest;
-}
-
-static bool moves(const struct gm_view *view)
-{
-    return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
 }
 
 static double mesh_error(const struct gm_view *view)
@@ -90,22 +92,14 @@ const struct gm_observable gm_mesh_errors[2] = {
                   .missing = "no shift in time brings the exact solution near"),
 };
 
-struct gm_mesh gm_mesh_integrated(const struct gm_view *view)
-{
-    struct gm_mesh mesh = gm_mesh_of(view);
-    mesh.cell = gm_scheme_mesh(view->scheme) == GM_MESH_FREE ? mesh.cell : NULL;
-    return mesh;
-}
-
 double gm_view_mesh_energy(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_integrated(view);
-    return gm_mesh_energy(&mesh, view->state);
+    return gm_view_measure(view, GM_MEASURE_ENERGY);
 }
 
-double gm_view_field_energy(const struct gm_view *view)
+static double field_energy(const struct gm_view *view)
 {
-    struct gm_mesh mesh = gm_mesh_integrated(view);
+    struct gm_mesh mesh = gm_mesh_of(view);
     const bool adds = mesh.cell;
     mesh.cell = NULL;
     return adds ? gm_mesh_energy(&mesh, view->state) : NAN;
@@ -113,19 +107,16 @@ double gm_view_field_energy(const struct gm_view *view)
 
 static double straightest(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_measure(&mesh, view->state, GM_MEASURE_STRAIGHTEST);
+    return gm_view_measure(view, GM_MEASURE_STRAIGHTEST);
 }
 
 /* The rank of the mass matrix, or its condition, by the observable's key. */
 static double mass(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_integrated(view);
+    const struct gm_mesh mesh = gm_mesh_of(view);
     double rank, condition;
-    if (!gm_mesh_mass(&mesh, view->state, &rank, &condition)) {
-        return NAN;
-    }
-    return strcmp(view->observable->key, "mass_rank") == 0 ? rank : condition;
+    const bool good = gm_mesh_mass(&mesh, view->state, &rank, &condition);
+    return !good ? NAN : strcmp(view->observable->key, "mass_rank") == 0 ? rank : condition;
 }
 
 const struct gm_observable gm_mesh_asked[3] = {
@@ -135,21 +126,19 @@ const struct gm_observable gm_mesh_asked[3] = {
                       .missing = "there are more than 255 nodes"),
 };
 
-double gm_view_constraint_defect(const struct gm_view *view)
+static double constraint_defect(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_of(view);
-    return moves(view) ? gm_mesh_measure(&mesh, view->state, GM_MEASURE_DEFECT) : NAN;
+    return gm_scheme_mesh(view->scheme) == GM_MESH_MOVING ? gm_view_measure(view, GM_MEASURE_DEFECT) : NAN;
 }
 
-double gm_view_multiplier_norm(const struct gm_view *view)
+static double multiplier_norm(const struct gm_view *view)
 {
     return gm_mesh_multiplier_norm(view->run);
 }
 
 double gm_view_smallest_cell(const struct gm_view *view)
 {
-    const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_smallest_cell(&mesh, view->state);
+    return gm_view_measure(view, GM_MEASURE_NARROWEST);
 }
 
 double gm_view_newton_iterations(const struct gm_view *view)
@@ -161,6 +150,17 @@ double gm_view_factorisations(const struct gm_view *view)
 {
     return gm_mesh_factorisations(view->run);
 }
+
+const struct gm_observable gm_mesh_observables[8] = {
+    GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),
+    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
+    GM_KEPT_OBSERVABLE("field_energy_error", field_energy, "E", "energy error of the field alone",
+                       .missing = "cells have no energy of their own"),
+    GM_LOG_OBSERVABLE("constraint_defect", constraint_defect, "defect of the mesh constraint",
+                      .missing = "this mesh does not move"),
+    GM_OBSERVABLE("multiplier_norm", multiplier_norm, "largest multiplier"),
+    GM_MESH_SOLVING,
+};
 
 /* Paths of all nodes, or of evenly chosen ones. */
 static size_t path_stride(size_t points)

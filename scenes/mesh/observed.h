@@ -7,9 +7,9 @@
 
 /* The observables of every field on a moving mesh. */
 
+/* The mesh, with the cells' Lagrangian if the scheme integrates it. */
 struct gm_mesh gm_mesh_of(const struct gm_view *view);
-/* The mesh with the cells' Lagrangian if the scheme integrates it. */
-struct gm_mesh gm_mesh_integrated(const struct gm_view *view);
+double gm_view_measure(const struct gm_view *view, enum gm_mesh_measure measure);
 /* Returns the exact solution; NaN if none is known. */
 double gm_mesh_exact(const struct gm_view *view, double x, double t);
 /* Returns the largest difference of a lane's field at its nodes from the field of a lane with more nodes,
@@ -17,31 +17,16 @@ double gm_mesh_exact(const struct gm_view *view, double x, double t);
 double gm_mesh_distance(const struct gm_lane *lane, const struct gm_lane *finer);
 
 double gm_view_mesh_energy(const struct gm_view *view);
-double gm_view_field_energy(const struct gm_view *view);
-/* Observables that are computed on request. */
-extern const struct gm_observable gm_mesh_asked[3];
-double gm_view_constraint_defect(const struct gm_view *view);
-double gm_view_multiplier_norm(const struct gm_view *view);
 double gm_view_smallest_cell(const struct gm_view *view);
 double gm_view_newton_iterations(const struct gm_view *view);
 double gm_view_factorisations(const struct gm_view *view);
-
-/* Observables against an exact solution, and of every run. */
-extern const struct gm_observable gm_mesh_errors[2];
-#define GM_MESH_ENERGIES                                                                                     \
-    GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),                                         \
-        GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),                        \
-        GM_KEPT_OBSERVABLE("field_energy_error", gm_view_field_energy, "E",                                  \
-                           "energy error of the field alone",                                                \
-                           .missing = "cells have no energy of their own")
-#define GM_MESH_NODES                                                                                        \
-    GM_LOG_OBSERVABLE("constraint_defect", gm_view_constraint_defect, "defect of the mesh constraint",       \
-                      .missing = "this mesh does not move"),                                                 \
-        GM_OBSERVABLE("multiplier_norm", gm_view_multiplier_norm, "largest multiplier"), GM_MESH_SOLVING
 #define GM_MESH_SOLVING                                                                                      \
     GM_LOG_OBSERVABLE("smallest_cell", gm_view_smallest_cell, "smallest cell"),                              \
         GM_OBSERVABLE("newton_iterations", gm_view_newton_iterations, "Newton iterations"),                  \
         GM_OBSERVABLE("factorisations", gm_view_factorisations, "matrices factored")
+
+/* Observables of every field, against an exact solution, and those that are computed on request. */
+extern const struct gm_observable gm_mesh_observables[8], gm_mesh_errors[2], gm_mesh_asked[3];
 
 /* The paths of all nodes, or of evenly chosen ones. */
 extern const struct gm_track gm_mesh_paths_track;

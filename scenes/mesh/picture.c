@@ -2,8 +2,9 @@
 #include "scenes/mesh/picture.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include <gsl/gsl_sort.h>
 
 #include "core/expression/number.h"
 #include "core/functions/functions.h"
@@ -91,10 +92,11 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
     gm_mark_line(picture, panel, style, line, cells * PARTS + 1, false);
 }
 
-/* The axes of the ellipse dq^T A dq = 1 of displacements dq = (dy, dX), the long one first; false if A has rank 1. */
-static bool find_axes(const double block[3], double axes[2][2])
+/* The axes of the ellipse dq^T A dq = 1 of displacements dq = (dy, dX), the long one first; false if A has rank 1. A is
+   a diagonal block of the mass matrix with n columns. */
+static bool find_axes(const double *block, size_t n, double axes[2][2])
 {
-    const double mean = (block[0] + block[2]) / 2, half = (block[0] - block[2]) / 2,
+    const double mean = (block[0] + block[n + 1]) / 2, half = (block[0] - block[n + 1]) / 2,
                  apart = gm_hypot(half, block[1]),
                  angle = gm_atan2(block[1], half) / 2; /* of the stiff direction */
     const double least = mean - apart, largest = mean + apart;
@@ -105,12 +107,6 @@ static bool find_axes(const double block[3], double axes[2][2])
     return least > 1e-9 * largest;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Tyranowski and Desbrun's figure 1 for every node: an ellipse of displacements of equal kinetic energy, a quarter of
    whose long axes are below a twentieth of the panel, or, where a displacement along the field has none, a segment along it. Both
    end at the neighbours. */
@@ -119,25 +115,26 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
 {
     enum { AROUND = 48 };
     const struct gm_view view = gm_lane_view(lane);
-    const struct gm_mesh mesh = gm_mesh_integrated(&view);
+    const struct gm_mesh mesh = gm_mesh_of(&view);
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
     const enum gm_role role = gm_lane_role(lane->shown.colour);
-    double(*blocks)[3] = gm_picture_memory(picture, mesh.points * sizeof *blocks);
-    double *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND], axes[2][2];
+    const size_t n = mesh.points <= GM_DENSE_POINTS ? 2 * mesh.points : 0, next = 2 * (n + 1);
+    double *mass = gm_picture_memory(picture, (n * n + 1) * sizeof *mass),
+           *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND], axes[2][2];
     size_t count = 0;
-    if (!blocks || !sizes || !gm_mesh_inertia(&mesh, view.state, blocks)) {
+    if (!mass || !sizes || !gm_mesh_mass_matrix(&mesh, view.state, mass)) {
         return;
     }
     for (size_t k = 0; k < mesh.points; k++) {
-        if (find_axes(blocks[k], axes)) {
+        if (find_axes(mass + k * next, n, axes)) {
             sizes[count++] = gm_hypot(axes[0][1] / width, axes[0][0] / height);
         }
     }
-    qsort(sizes, count, sizeof *sizes, ascending);
+    gsl_sort(sizes, 1, count);
     const double scale = count > 0 ? 1. / 40 / sizes[count / 4] : 0; /* most others are nearly straight */
     for (size_t k = 0; k < mesh.points; k++) {
         const double *node = nodes + 2 * k + 2;
-        if (!find_axes(blocks[k], axes)) {
+        if (!find_axes(mass + k * next, n, axes)) {
             gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 1, 2.4, GM_SOLID}, node - 2, 3, false);
             continue;
         }
@@ -227,32 +224,26 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
 static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                         bool named)
 {
-    struct gm_panel *before = picture->last, *panel = NULL;
+    struct gm_panel *panel = NULL;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
-        const struct gm_timing *timing = walk.lane->parameters;
+        const struct gm_view view = gm_lane_view(walk.lane);
+        const struct gm_timing *timing = view.parameters;
         const struct gm_entries *paths = &walk.lane->entries[0];
-        const double t = walk.lane->run->t;
-        if (walk.first && named) {
-            panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
-        } else if (walk.first) {
-            panel = gm_panel_add(picture, GM_PLACE_STATE, "");
-            panel->title_role = gm_lane_role(walk.lane->shown.colour);
-        }
         if (walk.first) {
-            panel->axes = true;
-            const struct gm_view view = gm_lane_view(walk.lane);
             const struct gm_mesh mesh = gm_mesh_of(&view);
+            panel = named ? gm_walk_panel(picture, &walk, error_text(picture, walk.lane))
+                          : gm_panel_add(picture, GM_PLACE_STATE, "");
+            panel->title_role = gm_lane_role(walk.lane->shown.colour);
+            panel->axes = true;
             panel->x = (struct gm_axis){.label = "X", .low = mesh.first, .high = mesh.first + mesh.length};
             panel->y = (struct gm_axis){.label = "t", .low = 0, .high = 0};
         }
-        panel->y.low = fmin(panel->y.low, fmin(paths->times[0], t));
-        panel->y.high = fmax(panel->y.high, fmax(timing->until, t));
-        draw_paths(picture, panel, walk.lane, paths->width > 40);
-    }
-    for (panel = before ? before->next : picture->first; panel; panel = panel->next) {
+        panel->y.low = fmin(panel->y.low, fmin(paths->times[0], view.t));
+        panel->y.high = fmax(panel->y.high, fmax(timing->until, view.t));
         if (!(panel->y.high > panel->y.low)) {
             panel->y.high = panel->y.low + 1; /* the axis needs a height */
         }
+        draw_paths(picture, panel, walk.lane, paths->width > 40);
     }
 }
 
@@ -329,7 +320,6 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
 {
     const struct gm_view view = gm_lane_view(lanes[0]);
     const struct gm_mesh mesh = gm_mesh_of(&view);
-    const size_t points = mesh.points;
     const bool named = look->show != GM_MESH_CONVERGENCE;
     bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
@@ -342,7 +332,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
                later = lanes[0]->run->t != lanes[0]->t0;
     return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s", look->front,
                            one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "",
-                                                      points, gm_plural((double)points))
+                                                      mesh.points, gm_plural((double)mesh.points))
                                     : "",
                            gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "",
                            one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",

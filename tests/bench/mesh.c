@@ -10,44 +10,48 @@
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/files/files.h"
+#include "core/mesh/user/potential.h"
+#include "core/model/equations.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/user/line.h"
 #include "tests/bench/timing.h"
 #include "tests/common/mesh_soliton.h"
 
-/* Microseconds a step, the median over the runs; negative if the run failed. */
-static double measure(const char *name, long points, long steps, int runs)
+/* A row of the table: a scheme on one soliton, of this program's C or of the built-in file with these lines. */
+struct row {
+    const char *scheme;
+    long points, steps;
+    const char *density, *cell, *map; /* no density: the soliton is C */
+};
+
+/* Microseconds a step, the median over the runs; negative if a run failed. */
+static double time_steps(const struct row *row, const struct gm_problem *problem, int runs)
 {
     enum { MOST = 99 };
     /* the same Courant number on every mesh: Lobatto IIIA-IIIB is explicit in what it knows of waves */
-    const double dt = points <= 31 ? 0.01 : 0.01 * 32 / (double)(points + 1);
-    const struct gm_soliton soliton = {
-        .solitons = 1, .points = points, .velocity = 0.9, .length = 25, .alpha = 2.5};
+    const double dt = row->points <= 31 ? 0.01 : 0.01 * 32 / (double)(row->points + 1);
     const struct gm_settings settings = {0};
-    const struct gm_scheme *scheme = gm_scheme_find(name);
-    struct gm_problem problem;
+    const struct gm_scheme *scheme = gm_scheme_find(row->scheme);
+    const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
     struct gm_mesh mesh;
     double times[MOST];
-    gm_soliton_problem(&soliton, &problem);
-    gm_moving_mesh_of(&problem)->describe(&problem, &mesh);
-    double *state = malloc(problem.n * sizeof *state);
-    if (!state || !scheme ||
-        !gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton, state)) {
-        free(state);
-        return -1;
-    }
-    bool good = true;
+    moving->describe(problem, &mesh);
+    double *state = malloc(problem->n * sizeof *state);
+    bool good = state && scheme &&
+                gm_mesh_start(&mesh, gm_scheme_mesh(scheme), moving->start, problem->parameters, state);
     for (int i = 0; i < runs && i < MOST && good; i++) {
-        struct gm_run *run = gm_run_open(&problem, scheme, &settings, 0, dt, state);
+        struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, dt, state);
         if (!run) {
             good = false;
             break;
         }
         const double before = seconds();
-        good = gm_run_advance(run, steps) == GM_OK;
-        times[i] = 1e6 * (seconds() - before) / (double)steps;
-        if (i == 0 && points == 31) {
-            printf("  %-24s %5.2f residuals, %5.3f factorisations a step\n", name,
+        good = gm_run_advance(run, row->steps) == GM_OK;
+        times[i] = 1e6 * (seconds() - before) / (double)row->steps;
+        if (i == 0 && row->points == 31) {
+            printf("  %-24s %5.2f residuals, %5.3f factorisations a step\n", row->scheme,
                    (double)run->evaluations / (double)run->steps,
                    gm_mesh_factorisations(run) / (double)run->steps);
         }
@@ -55,6 +59,38 @@ static double measure(const char *name, long points, long steps, int runs)
     }
     free(state);
     return good ? median(times, (size_t)(runs < MOST ? runs : MOST)) : -1;
+}
+
+static double measure(const struct row *row, int runs)
+{
+    struct gm_problem problem;
+    if (!row->density) {
+        const struct gm_soliton soliton = {
+            .solitons = 1, .points = row->points, .velocity = 0.9, .length = 25, .alpha = 2.5};
+        gm_soliton_problem(&soliton, &problem);
+        return time_steps(row, &problem, runs);
+    }
+    const struct gm_built_in *file = gm_built_in_find(GM_FILE_SYSTEM, "soliton");
+    struct gm_user_system system;
+    struct gm_user_wave wave;
+    struct gm_fault fault;
+    double *values = gm_equations_open(&system, file->text, file->length, NULL, 0, &fault)
+                         ? gm_equations_start(&system, NULL)
+                         : NULL,
+           time = -1;
+    const struct gm_user_mesh chosen = {.length = 25,
+                                        .points = row->points,
+                                        .alpha = NAN,
+                                        .density = row->density,
+                                        .map = row->map,
+                                        .cell = row->cell};
+    if (values && gm_user_wave_derive(&wave, &system)) {
+        time = gm_user_mesh_open(&problem, &wave, values, &chosen) ? time_steps(row, &problem, runs) : -1;
+        gm_user_line_close(&problem);
+    }
+    free(values);
+    gm_system_close(&system);
+    return time;
 }
 
 static void keep_energy(const char *name, int density, double alpha, double dt)
@@ -120,17 +156,33 @@ int main(int count, char **words)
         return keep_energies();
     }
     const int runs = count > 1 && atoi(words[1]) > 0 ? atoi(words[1]) : 5;
-    static const char *const names[] = {"uniform-gauss4",         "control-gauss4",
-                                        "control-radau5",         "multiplier-lobatto2",
-                                        "multiplier-trapezoidal", "multiplier-lobatto4"};
-    printf("31 points, 1000 steps of 0.01\n");
-    for (size_t i = 0; i < GM_COUNT(names); i++) {
-        printf("  %-24s %8.2f us a step\n", names[i], measure(names[i], 31, 1000, runs));
+    /* wanted: the file at most 1.5 of C, a typed density at most 1.3 of arclength; free and given steps at most 1.5 of
+       those of multipliers with as many stages */
+    static const char typed[] = "sqrt(1 + 2*u_x^2 + 0.3*u^2)", inertia[] = "0.5*(d_t/d)^2",
+                      swings[] = "X = x + sin(pi*x/25)*sin(t)";
+    static const struct row rows[] = {{"uniform-gauss4", 31, 1000, NULL, NULL, NULL},
+                                      {"control-gauss4", 31, 1000, NULL, NULL, NULL},
+                                      {"control-radau5", 31, 1000, NULL, NULL, NULL},
+                                      {"multiplier-lobatto2", 31, 1000, NULL, NULL, NULL},
+                                      {"multiplier-trapezoidal", 31, 1000, NULL, NULL, NULL},
+                                      {"multiplier-lobatto4", 31, 1000, NULL, NULL, NULL},
+                                      {"multiplier-lobatto4", 31, 1000, "arclength", NULL, NULL},
+                                      {"multiplier-lobatto4", 31, 1000, typed, NULL, NULL},
+                                      {"control-gauss4", 31, 1000, "arclength", NULL, NULL},
+                                      {"multiplier-lobatto2", 31, 1000, "arclength", NULL, NULL},
+                                      {"free-gauss2", 31, 600, "arclength", inertia, NULL},
+                                      {"free-gauss4", 31, 600, "arclength", inertia, NULL},
+                                      {"given-gauss4", 31, 1000, "arclength", NULL, swings},
+                                      {"given-lobatto4", 31, 1000, "arclength", NULL, swings}};
+    printf("31 points, steps of 0.01\n");
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        printf("  %-24s %8.2f us a step, %s\n", rows[i].scheme, measure(&rows[i], runs),
+               rows[i].density ? rows[i].density : "in C");
     }
     printf("multiplier-lobatto4, 40 steps of 0.32 / (points + 1)\n  %8s %12s %14s\n", "points", "us a step",
            "ns a point");
     for (long points = 63; points <= 4095; points = 2 * points + 1) {
-        const double time = measure("multiplier-lobatto4", points, 40, runs);
+        const double time = measure(&(struct row){"multiplier-lobatto4", points, 40, NULL, NULL, NULL}, runs);
         printf("  %8ld %12.1f %14.1f\n", points, time, 1e3 * time / (double)points);
     }
     return 0;

@@ -14,6 +14,7 @@
 
 #include "core/basics.h"
 #include "core/files/files.h"
+#include "core/linear/banded.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/user/potential.h"
@@ -352,7 +353,8 @@ static double order_of(const struct typed *typed, const struct gm_scheme *scheme
     for (int i = 0; i < 4; i++) {
         const long steps = 20L << i;
         assert_true(gm_mesh_subject_open(&subject, scheme, &typed->problem, 1. / (double)steps));
-        assert_true(gm_mesh_subject_advance(&subject, steps, subject.start, end));
+        subject.trial.steps = steps;
+        assert_true(gm_trial_advance(&subject.trial, subject.start, end));
         changes[i] = 0;
         for (size_t k = 0; k < typed->problem.n / 2; k++) {
             changes[i] = fmax(changes[i], fabs(end[k] - before[k]));
@@ -543,6 +545,209 @@ static struct gm_run *open_kind_run(const struct typed *typed, const char *name)
     return run;
 }
 
+/* The matrix of a step against differences of its residual, for every kind of mesh and every tableau, at unknowns near the
+   guess. */
+static void matrices_are_derivatives(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        double relax;
+        bool alone;
+    } list[] = {{"uniform-gauss4", 0, false},      {"given-gauss2", 0, false},
+                {"given-lobatto4", 0, false},      {"control-gauss4", 0, false},
+                {"control-radau5", 0, false},      {"control-lobatto4", 0, false},
+                {"control-radau3", 0.3, false},    {"control-gauss4", 0.3, false},
+                {"free-gauss2", 0, false},         {"free-gauss4", 0, false},
+                {"free-gauss4", 0, true},          {"multiplier-lobatto2", 0, false},
+                {"multiplier-lobatto4", 0, false}, {"multiplier-trapezoidal", 0, false}};
+    enum { MOST = 7 * 9 };
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
+        struct typed typed;
+        open_kind(&typed, list[i].alone, list[i].relax);
+        const struct gm_scheme *scheme = gm_scheme_find(list[i].name);
+        struct gm_mesh_solver *solver = scheme->family->workspace_open(&typed.problem, scheme);
+        double start[4 * 7], state[4 * 7] = {0}, at[MOST], sides[2][MOST], worst = 0;
+        assert_true(gm_mesh_start(&typed.mesh, gm_scheme_mesh(scheme),
+                                  gm_moving_mesh_of(&typed.problem)->start, typed.problem.parameters, start));
+        for (size_t part = 0; part < (list[i].alone ? 2 : 4); part++) {
+            memcpy(state + 7 * (list[i].alone ? 2 * part + 1 : part), start + 7 * part, 7 * sizeof *state);
+        }
+        gm_step_place(solver, state, 0.2, 0.04);
+        gm_step_guess(solver, at);
+        const size_t n = solver->matrix.n;
+        for (size_t k = 0; k < n; k++) {
+            /* multipliers are not 0 either; the slack is, as the matrix leaves third derivatives of ell times it out */
+            const bool slack = solver->of.slack > 0 && k % solver->of.per_node == solver->of.slack;
+            at[k] += slack ? 0 : 0.02 * sin(5. * (double)k);
+        }
+        assert_true(gm_step_residual(solver, at));
+        gm_banded_clear(&solver->matrix);
+        for (size_t e = 0; e <= 7; e++) {
+            gm_step_matrix(solver, &(struct gm_assembly){&solver->matrix, 7, solver->of.per_node, e});
+        }
+        for (size_t column = 0; column < n; column++) {
+            const double kept = at[column], step = 1e-5;
+            for (int side = 0; side < 2; side++) {
+                at[column] = kept + (side ? step : -step);
+                assert_true(gm_step_residual(solver, at));
+                memcpy(sides[side], solver->residual, n * sizeof *sides[side]);
+            }
+            at[column] = kept;
+            for (size_t row = 0; row < n; row++) {
+                const size_t band = solver->matrix.band, apart = row > column ? row - column : column - row;
+                const double got =
+                    apart > band
+                        ? 0
+                        : solver->matrix.values[column * solver->matrix.stride + 2 * band + row - column];
+                const double wanted = (sides[1][row] - sides[0][row]) / (2 * step);
+                worst = fmax(worst, fabs(got - wanted) / (1 + fabs(wanted)));
+            }
+        }
+        print_message("    %-24s matrix within %.1e\n", list[i].name, worst);
+        if (!(worst < 1e-8)) {
+            fail_msg("%s: %.3g", list[i].name, worst);
+        }
+        scheme->family->workspace_close(solver);
+        close_typed(&typed);
+    }
+}
+
+/* The Lagrangian of a cell by z = (y0, X0, y1, X1) and their rates: what open_cell has as text. */
+static const char cell_text[] = "0.3*(d_t/d)^2 + m_t^2*d*(1 + u_x^2) - u_x^3/8 + d_t*m_t*cos(d)";
+static double cell_of(const double z[4], const double rate[4])
+{
+    const double d = z[3] - z[1], d_t = rate[3] - rate[1], m_t = (rate[1] + rate[3]) / 2,
+                 s = (z[2] - z[0]) / d;
+    return 0.3 * d_t * d_t / (d * d) + m_t * m_t * d * (1 + s * s) - s * s * s / 8 + d_t * m_t * cos(d);
+}
+
+/* Derivatives of density and cell at random cells, by differences: what an element has of a cell is the derivative of its
+   Lagrangian by the places and velocities of both ends, and P and its derivatives fit each other. */
+static void typed_derivatives_are_differences(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    const struct gm_user_mesh chosen = {.first = -6,
+                                        .length = 12,
+                                        .points = 1,
+                                        .alpha = 1.3,
+                                        .density = "sqrt(1 + alpha^2*u_x^2 + u^2*cos(x)/4 + u_x*V_u/8)",
+                                        .cell = cell_text};
+    open_chosen(&typed, "field: u\nV: u^2/2\nstart: u = exp(-x^2), u_t = 0\n", &chosen);
+    struct gm_mesh mesh = typed.mesh;
+    struct gm_elements stage, bare;
+    uint32_t seed = 3;
+    const double h = 1e-5;
+    assert_true(gm_elements_open(&stage, &mesh));
+    mesh.cell = NULL;
+    assert_true(gm_elements_open(&bare, &mesh));
+    for (int trial = 0; trial < 50; trial++) {
+        double drawn[8];
+        for (size_t i = 0; i < 8; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            drawn[i] = (double)seed / 4294967296. * 2 - 1;
+        }
+        const double z[4] = {drawn[0], -2 + drawn[1], drawn[2], 1.5 + drawn[3]}, *rate = drawn + 4;
+        struct gm_elements *const stages[] = {&stage, &bare};
+        for (size_t k = 0; k < 2; k++) {
+            struct gm_elements *of = stages[k];
+            memcpy(of->y, (double[]){z[0], z[2], 0}, 3 * sizeof(double));
+            memcpy(of->x, (double[]){z[1], z[3], 6}, 3 * sizeof(double));
+            memcpy(of->u, (double[]){rate[0], rate[2], 0}, 3 * sizeof(double));
+            memcpy(of->v, (double[]){rate[1], rate[3], 0}, 3 * sizeof(double));
+            mesh.cell = k == 0 ? typed.mesh.cell : NULL;
+            assert_true(gm_elements_evaluate(of, &mesh));
+        }
+        const double pull = stage.force_d[0] - bare.force_d[0];
+        const double force[4] = {stage.force_y0[0] - bare.force_y0[0], -pull,
+                                 stage.force_y1[0] - bare.force_y1[0], pull};
+        const double momentum[4] = {0, stage.cell_v0[0], 0, stage.cell_v1[0]};
+        for (size_t a = 0; a < 4; a++) {
+            double places[2][4], rates[2][4];
+            for (size_t side = 0; side < 2; side++) {
+                memcpy(places[side], z, sizeof places[side]);
+                memcpy(rates[side], rate, sizeof rates[side]);
+                places[side][a] += side ? h : -h;
+                rates[side][a] += side ? h : -h;
+            }
+            assert_true(fabs(force[a] - (cell_of(places[1], rate) - cell_of(places[0], rate)) / (2 * h)) <
+                        1e-7);
+            assert_true(fabs(momentum[a] - (cell_of(z, rates[1]) - cell_of(z, rates[0])) / (2 * h)) < 1e-7);
+        }
+        /* of s, u, x: the numbers of the derivatives by each of them, of P and of its first derivatives */
+        static const enum gm_density_value by[4][3] = {{GM_P_S, GM_P_U, GM_P_X},
+                                                       {GM_P_SS, GM_P_SU, GM_P_SX},
+                                                       {GM_P_SU, GM_P_UU, GM_P_UX},
+                                                       {GM_P_SX, GM_P_UX, GM_P_XX}},
+                                           of[4] = {GM_P, GM_P_S, GM_P_U, GM_P_X};
+        double here[GM_DENSITY_VALUES], sides[2][GM_DENSITY_VALUES];
+        mesh.density->values(mesh.density, drawn, here, 1);
+        for (size_t a = 0; a < 3; a++) {
+            for (size_t side = 0; side < 2; side++) {
+                double moved[3] = {drawn[0], drawn[1], drawn[2]};
+                moved[a] += side ? h : -h;
+                mesh.density->values(mesh.density, moved, sides[side], 1);
+            }
+            for (size_t k = 0; k < 4; k++) {
+                assert_true(fabs(here[by[k][a]] - (sides[1][of[k]] - sides[0][of[k]]) / (2 * h)) < 1e-7);
+            }
+        }
+    }
+    gm_elements_close(&stage);
+    gm_elements_close(&bare);
+    close_typed(&typed);
+}
+
+/* det M of (56), and its rank where 0 to 3 nodes are straight; elimination with pivots on the whole matrix. */
+static void mass_matrices_have_their_rank(void **unused)
+{
+    (void)unused;
+    enum { N = 7, SIZE = 2 * N };
+    static const size_t straight[][3] = {{0, 0, 0}, {4, 0, 0}, {2, 5, 0}, {2, 4, 6}};
+    for (size_t count = 0; count < GM_COUNT(straight); count++) {
+        struct typed typed;
+        open_typed(&typed, "field: u\nV: u^2/2\nstart: u = 0, u_t = 0\n", 6, N, NAN);
+        double y[N + 2] = {0}, x[N + 2], state[4 * N] = {0}, matrix[SIZE * SIZE], rank, condition;
+        for (size_t k = 0; k <= N + 1; k++) {
+            x[k] = -6 + 12 * ((double)k + 0.2 * sin(2. * (double)k) * (k % (N + 1) != 0)) / (N + 1);
+            y[k] = k % (N + 1) == 0 ? 0 : 2 * cos(1.7 * (double)k);
+        }
+        for (size_t i = 0; i < count; i++) {
+            const size_t k = straight[count][i];
+            y[k] = y[k - 1] + (y[k + 1] - y[k - 1]) * (x[k] - x[k - 1]) / (x[k + 1] - x[k - 1]);
+        }
+        memcpy(state, y + 1, N * sizeof *y);
+        memcpy(state + N, x + 1, N * sizeof *x);
+        assert_true(gm_mesh_mass(&typed.mesh, state, &rank, &condition));
+        assert_int_equal((int)rank, SIZE - count);
+        assert_true(gm_mesh_mass_matrix(&typed.mesh, state, matrix));
+        double wanted = 1. / 9, got = 1;
+        for (size_t e = 0; e <= N; e++) {
+            const double d = x[e + 1] - x[e];
+            wanted *= e % N == 0 ? d : d * d / 12;
+            if (e > 0) {
+                const double jump = (y[e] - y[e - 1]) / (x[e] - x[e - 1]) - (y[e + 1] - y[e]) / d;
+                wanted *= jump * jump;
+            }
+        }
+        for (size_t j = 0; j < SIZE; j++) { /* M is symmetric and not negative: it needs no pivots */
+            got *= matrix[j * SIZE + j];
+            for (size_t i = j + 1; i < SIZE && count == 0; i++) {
+                const double factor = matrix[i * SIZE + j] / matrix[j * SIZE + j];
+                for (size_t k = j; k < SIZE; k++) {
+                    matrix[i * SIZE + k] -= factor * matrix[j * SIZE + k];
+                }
+            }
+        }
+        if (count == 0) {
+            print_message("    det M = %.15g, %.1e from (56)\n", got, fabs(got / wanted - 1));
+            assert_true(fabs(got / wanted - 1) < 1e-11);
+        }
+        close_typed(&typed);
+    }
+}
+
 /* Loads a snapshot of the run into a new one, which replaces it. */
 static void resume(const struct typed *typed, struct gm_run **run, const char *name)
 {
@@ -638,6 +843,9 @@ int main(void)
         cmocka_unit_test(schemes_are_certified_on_somebodys_potential),
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(what_does_not_rest_is_refused),
+        cmocka_unit_test(matrices_are_derivatives),
+        cmocka_unit_test(typed_derivatives_are_differences),
+        cmocka_unit_test(mass_matrices_have_their_rank),
         cmocka_unit_test(runs_of_every_kind_keep_their_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

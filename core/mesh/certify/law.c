@@ -12,7 +12,7 @@
                = f(a, a-1) + f(b, b) - dell_a ^ dlambda_a + dell_b ^ dlambda_b
        f(i, e) = dq_i' ^ d(dL_e/dq_i') + dq_i ^ d(dL_e/dq_i)
    on motions of three steps that the scheme makes. Momenta are those of the discrete Lagrangian of the step
-   before, the multipliers the best that the places allow: nothing is taken from the scheme but where the
+   before, the multipliers those that the places ask for: nothing is taken from the scheme but where the
    nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
    S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
 #include "core/mesh/certify/subject.h"
@@ -67,30 +67,21 @@ static bool place(const struct law *law, double t, const double *from, const dou
     return true;
 }
 
-/* Multipliers with which the Euler-Lagrange equations hold best: least squares of Dg^T lambda = rest. */
-static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2], double *lambda)
+/* Multipliers with which the Euler-Lagrange equations of X hold, (dg/dX)^T lambda = rest. */
+static bool find_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2], double *lambda)
 {
-    double row[POINTS][POINTS + 2][2] = {{{0}}}, normal[POINTS * POINTS] = {0};
+    double matrix[POINTS * POINTS] = {0};
     for (size_t k = 1; k <= POINTS; k++) {
-        /* ell_k - ell_(k-1) */
-        for (size_t c = 0; c < 2; c++) {
-            row[k - 1][k][c] = at->gradient[c][k] - at->gradient[2 + c][k - 1];
-            row[k - 1][k + 1][c] = at->gradient[2 + c][k];
-            row[k - 1][k - 1][c] = -at->gradient[c][k - 1];
-        }
-    }
-    for (size_t a = 0; a < POINTS; a++) {
-        lambda[a + 1] = 0;
-        for (size_t i = 1; i <= POINTS; i++) {
-            for (size_t c = 0; c < 2; c++) {
-                lambda[a + 1] += row[a][i][c] * rest[i][c];
-                for (size_t b = 0; b < POINTS; b++) {
-                    normal[a * POINTS + b] += row[a][i][c] * row[b][i][c];
-                }
+        lambda[k] = rest[k][1];
+        for (size_t i = 0; i < 4; i++) { /* both ends of the elements k - 1 and k: g_k = ell_k - ell_(k-1) */
+            const size_t e = k - 1 + i / 2, node = e + i % 2;
+            const double by = at->gradient[2 * (i % 2) + 1][e];
+            if (node >= 1 && node <= POINTS) {
+                matrix[(node - 1) * POINTS + k - 1] += e == k ? by : -by;
             }
         }
     }
-    return gm_eliminate(POINTS, normal, lambda + 1);
+    return gm_eliminate(POINTS, matrix, lambda + 1);
 }
 
 /* dL_e/dq' and dL_e/dq at both ends of all elements: h/2 times the derivative of l by the place there, and the mean
@@ -129,10 +120,11 @@ static bool measure(const void *data, const double *by, double *values)
     struct motion *motion = (struct motion *)values;
     double states[3][4 * POINTS], push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
     memset(motion, 0, sizeof *motion);
+    struct gm_trial twice = subject->trial;
+    twice.steps = 2;
     if (!gm_mesh_subject_shift(subject, by, states[0]) ||
-        !gm_mesh_subject_advance(subject, 1, states[0], states[1]) ||
-        !gm_mesh_subject_advance(subject, 2, states[0], states[2]) ||
-        !place(law, middle, states[0], states[1])) {
+        !gm_trial_advance(&subject->trial, states[0], states[1]) ||
+        !gm_trial_advance(&twice, states[0], states[2]) || !place(law, middle, states[0], states[1])) {
         return false;
     }
     differentiate(law, push, motion->pull);
@@ -155,7 +147,7 @@ static bool measure(const void *data, const double *by, double *values)
     if (subject->kind != GM_MESH_MOVING) {
         return true;
     }
-    if (!fit_multipliers(at, rest, motion->lambda)) {
+    if (!find_multipliers(at, rest, motion->lambda)) {
         return false;
     }
     for (size_t e = 0; e < ELEMENTS; e++) {

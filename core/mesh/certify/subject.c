@@ -54,14 +54,6 @@ bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_schem
            gm_mesh_start(mesh, subject->kind, moving->start, problem->parameters, subject->start);
 }
 
-bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, int64_t steps, const double *from,
-                             double *end)
-{
-    struct gm_trial trial = subject->trial;
-    trial.steps = steps;
-    return gm_trial_advance(&trial, from, end);
-}
-
 bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *by, double *state)
 {
     const size_t points = subject->mesh.points;
@@ -83,11 +75,9 @@ bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *
     struct gm_elements stage = {0};
     struct gm_banded matrix = {0};
     double change[GM_MESH_SUBJECT_POINTS];
-    bool good = gm_elements_open(&stage, &subject->mesh) && gm_banded_open(&matrix, points, 1);
-    if (good) {
-        gm_elements_place(&stage, state);
-        good = gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
-    }
+    gm_elements_open_at(&stage, &subject->mesh, state);
+    bool good = stage.memory && gm_banded_open(&matrix, points, 1) &&
+                gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
     if (good) {
         /* dX/dt for dy/dt given: no slope, the rate is dy/dt */
         memcpy(state + points, stage.x + 1, points * sizeof *state);

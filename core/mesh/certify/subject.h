@@ -35,10 +35,6 @@ void gm_mesh_soliton_close(struct gm_mesh_soliton *soliton);
 bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
                           const struct gm_problem *problem, double dt);
 
-/* Steps of a run that starts from the state `from`; false if it fails. */
-bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, int64_t steps, const double *from,
-                             double *end);
-
 /* The state near the start whose y and then dy/dt are shifted, and X and dX/dt follow from the constraint. */
 bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *by, double *state);
 

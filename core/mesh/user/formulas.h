@@ -6,7 +6,6 @@
 
 #include "core/mesh/moving_mesh.h"
 #include "core/model/recognition.h"
-#include "core/tape.h"
 
 /* Meanings of names in formulas: the system, values of its variables, of which the parameters are used, and of alpha,
    steepest and bend. */
@@ -33,24 +32,15 @@ struct gm_user_mesh {
 /* The words for densities, NULL-terminated. */
 extern const char *const gm_user_densities[];
 
-enum gm_mesh_tape {
-    GM_TAPE_P,         /* of s, u, x: P and its derivatives, in the order of enum gm_density_value */
-    GM_TAPE_RHO,       /* of s, u, x */
-    GM_TAPE_PLACES,    /* of x and t: the place and its rate */
-    GM_TAPE_CELL,      /* of d, d_t, m_t, u_x: the Lagrangian and its derivatives */
-    GM_TAPE_BENT_CELL, /* the second ones */
-    GM_TAPE_BETWEEN,   /* of s from 0 to 1, the distance d of two nodes, their velocities v0 and v1 */
-    GM_TAPE_NODE,      /* scratch */
-    GM_MESH_TAPES
-};
 enum { GM_BETWEEN_INPUTS = 4, GM_MOST_LISTED = 128 };
 
-/* The formulas of a mesh equation. */
+/* The formulas of a mesh equation; tapes of lines that are not there have no outputs. */
 struct gm_mesh_formulas {
-    struct gm_density density; /* first */
-    struct gm_mesh_map map;    /* without a function: nodes are at their labels */
-    struct gm_mesh_cell cell;  /* without functions: cells have no Lagrangian */
-    struct gm_tape tapes[GM_MESH_TAPES];
+    struct gm_density density;   /* first */
+    struct gm_tape squared, rho; /* of s, u, x: P and its derivatives (enum gm_density_value), and rho */
+    struct gm_tape map;          /* of a label x and t: the place and its rate */
+    struct gm_mesh_cell cell;
+    struct gm_tape between; /* of s from 0 to 1, the distance d of two nodes, their velocities v0 and v1 */
     double listed[GM_MOST_LISTED];   /* places of nodes alone */
     size_t listed_count;             /* 0: by the density */
     char refused[GM_FAULT_SENTENCE]; /* why a formula is refused; "": all are good */
@@ -60,8 +50,5 @@ struct gm_mesh_formulas {
 bool gm_mesh_formulas_open(struct gm_mesh_formulas *formulas, const struct gm_mesh_names *names,
                            const struct gm_user_mesh *chosen);
 void gm_mesh_formulas_close(void *formulas);
-
-/* False with a sentence if the mesh's map moves an end at time t, or does not grow with x. */
-bool gm_mesh_map_suits(const struct gm_mesh *mesh, double t, char *sentence, size_t size);
 
 #endif

@@ -7,7 +7,6 @@
 #include "core/mesh/user/potential.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +14,7 @@
 
 #include "core/basics.h"
 #include "core/memory.h"
+#include "core/mesh/element.h"
 #include "core/user/line.h"
 
 enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
@@ -29,7 +29,7 @@ struct own {
     double until;
     size_t nodes;
     double place[MOST_NODES], weight[MOST_NODES];
-    struct gm_tape means /* V, V' */, bend /* V'' */;
+    struct gm_tape means /* V, V' */, bend /* V'' */, drift /* X_t at the start */;
     struct gm_tape
         known; /* of x and t: above 0 where the exact solution holds; without outputs if it always does */
 };
@@ -123,15 +123,6 @@ static void start(const void *parameters, const double *x, size_t count, double 
     }
 }
 
-static void drift(const void *parameters, const double *x, size_t count, double *rate)
-{
-    double of[OF_START];
-    for (size_t i = 0; i < count; i++) {
-        gm_tape_values(&((const struct own *)parameters)->line.start, x + i, of, 1);
-        rate[i] = of[DRIFT];
-    }
-}
-
 static double exact(const void *parameters, double x, double t)
 {
     const struct gm_tape *known = &((const struct own *)parameters)->known;
@@ -151,59 +142,6 @@ static struct gm_grid1 cells_of(const struct gm_mesh *mesh, size_t count)
     return (struct gm_grid1){.points = count + 1, .dx = mesh->length / (double)count, .first = mesh->first};
 }
 
-/* The start: the total variation of u, its largest slope, and the largest force. */
-struct extent {
-    double variation, slope, force;
-};
-
-static struct extent extent_of(const struct own *self)
-{
-    const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
-    struct extent of = {0};
-    double values[GM_LINE_BLOCK], before = self->mesh.left, at[2];
-    for (size_t from = 0, some; from < grid.points; from += some) {
-        some = gm_user_line_block(&self->line, &grid, from, values);
-        for (size_t i = 0; i < some; i++) {
-            gm_tape_values(&self->means, &values[i], at, 1);
-            of.variation += fabs(values[i] - before);
-            of.slope = fmax(of.slope, fabs(values[2 * some + i]));
-            of.force = fmax(of.force, fabs(at[1]));
-            before = values[i];
-        }
-    }
-    return of;
-}
-
-/* Sets the numbers of densities, by the file's line alpha:, or else as steep as the start is. */
-static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const double *values)
-{
-    const struct gm_user_system *system = self->line.system;
-    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
-    const struct gm_system_option *steepest = item ? gm_system_option(item, GM_OPTION_STEEPEST) : NULL,
-                                  *bend = item ? gm_system_option(item, GM_OPTION_BEND) : NULL;
-    double alpha = NAN, slope = NAN, curvature = NAN;
-    if (!steepest || !bend) {
-        const struct extent of = extent_of(self);
-        /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from
-           drawing all nodes at once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a
-           rise of 2 pi in a box of 25 */
-        alpha = of.variation > 0 && of.slope > 0
-                    ? fmin(1.5 / of.slope, M_PI / 10 * self->mesh.length / of.variation)
-                    : 0;
-        slope = of.slope > 0 ? of.slope : 1;
-        curvature = of.force > 0 ? of.slope * of.slope / of.force : 0;
-    }
-    if ((item && !gm_user_line_numbers(system, item->nodes, 1, values, &alpha)) ||
-        (steepest && !gm_user_line_numbers(system, &steepest->node, 1, values, &slope)) ||
-        (bend && !gm_user_line_numbers(system, &bend->node, 1, values, &curvature))) {
-        return false;
-    }
-    self->names.alpha = isnan(chosen->alpha) ? alpha : chosen->alpha;
-    self->names.steepest = slope;
-    self->names.bend = curvature;
-    return true;
-}
-
 struct opening {
     struct gm_problem *problem;
     const struct gm_user_wave *wave;
@@ -211,25 +149,69 @@ struct opening {
     const struct gm_user_mesh *chosen;
 };
 
+/* Sets the numbers of densities so that they suit the start: its largest slope and force, and its total variation. */
+static void weigh(struct gm_arena *arena, struct own *self)
+{
+    const struct gm_grid1 grid = cells_of(&self->mesh, SAMPLES);
+    const size_t mark = gm_arena_mark(arena);
+    double *values = gm_arena_take_unset(arena, grid.points * self->line.start.outputs, sizeof *values),
+           at[2];
+    double variation = 0, steepest = 0, force = 0, before = self->mesh.left;
+    gm_user_line_start(&self->line, &grid, values);
+    for (size_t i = 0; i < grid.points; i++) {
+        gm_tape_values(&self->means, &values[i], at, 1);
+        variation += fabs(values[i] - before);
+        steepest = fmax(steepest, fabs(values[SLOPE * grid.points + i]));
+        force = fmax(force, fabs(at[1]));
+        before = values[i];
+    }
+    gm_arena_release(arena, mark);
+    /* 3/2 makes cells 1.8 times closer at the steepest point. The bound, which keeps many waves from drawing all nodes at
+       once, is half of Tyranowski and Desbrun's choice for one soliton, 2.5 for a rise of 2 pi in a box of 25 */
+    self->names.alpha =
+        variation > 0 && steepest > 0 ? fmin(1.5 / steepest, M_PI / 10 * self->mesh.length / variation) : 0;
+    self->names.steepest = steepest > 0 ? steepest : 1;
+    self->names.bend = force > 0 ? steepest * steepest / force : 0;
+}
+
+/* Sets them by the file's line alpha:, or else as the start is, and alpha by its key. */
+static void choose_numbers(struct gm_arena *arena, struct own *self, const struct opening *opening)
+{
+    const struct gm_user_system *system = self->line.system;
+    const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
+    const struct gm_system_option *steepest = item ? gm_system_option(item, GM_OPTION_STEEPEST) : NULL,
+                                  *bend = item ? gm_system_option(item, GM_OPTION_BEND) : NULL;
+    const gm_node_id *const given[] = {item ? item->nodes : NULL, steepest ? &steepest->node : NULL,
+                                       bend ? &bend->node : NULL};
+    double *const numbers[] = {&self->names.alpha, &self->names.steepest, &self->names.bend};
+    if (!steepest || !bend) {
+        weigh(arena, self);
+    }
+    for (size_t i = 0; i < GM_COUNT(given); i++) {
+        gm_arena_need(arena,
+                      !given[i] || gm_user_line_numbers(system, given[i], 1, opening->values, numbers[i]));
+    }
+    if (!isnan(opening->chosen->alpha)) {
+        self->names.alpha = opening->chosen->alpha;
+    }
+}
+
 static void open_problem(struct gm_arena *arena, void *data)
 {
     const struct opening *opening = data;
     const struct gm_user_wave *wave = opening->wave;
     const struct gm_user_mesh *chosen = opening->chosen;
-    const double *values = opening->values;
+    const double *values = opening->values, places[] = {chosen->first, chosen->first + chosen->length};
     struct own *self = gm_user_line_take(arena, opening->problem, wave->system, sizeof *self);
+    struct gm_mesh_formulas *formulas = &self->formulas;
     const struct gm_user_line *line = &self->line;
     const struct gm_system_item *held = gm_system_item_of(wave->system, GM_WORD_ENDS, 0);
-    const gm_node_id means
-        [] = {wave->system->energy, wave->by_u[0]},
-   begin[OF_START] = {
-       [U] = wave->start[0], [RATE] = wave->start[1], [SLOPE] = wave->start_slope, [DRIFT] = wave->drift};
+    const bool drifts = wave->drift != GM_NO_NODE;
+    const gm_node_id means[] = {wave->system->energy, wave->by_u[0]};
+    const gm_node_id begin[OF_START] = {
+        [U] = wave->start[0], [RATE] = wave->start[1], [SLOPE] = wave->start_slope, [DRIFT] = wave->drift};
+    double ends[2], slopes[2], rates[2];
     self->functions = (struct gm_potential){.name = "own", .first = first, .second = second};
-    self->mesh =
-        (struct gm_mesh){.points = (size_t)chosen->points,
-                         .first = chosen->first,
-                         .length = chosen->length,
-                         .potential = wave->sine_gordon ? &gm_potential_sine_gordon : &self->functions};
     self->nodes = gm_user_mesh_order(wave);
     gm_arena_need(arena, gm_memory_guard_gsl(set_rule, self));
     gm_user_line_tape(line, &self->means, means, GM_COUNT(means), 1, values);
@@ -237,28 +219,34 @@ static void open_problem(struct gm_arena *arena, void *data)
     if (wave->exact_while != GM_NO_NODE) {
         gm_user_line_tape(line, &self->known, &wave->exact_while, 1, 2, values);
     }
-    gm_user_line_open(&self->line, begin, wave->drift == GM_NO_NODE ? DRIFT : OF_START, &wave->exact, values);
-    gm_arena_keep(arena, &self->formulas, gm_mesh_formulas_close); /* they are opened below */
-    const double places[] = {chosen->first, chosen->first + chosen->length};
-    double ends[2], slopes[2], rates[2];
+    if (drifts) {
+        gm_user_line_tape(line, &self->drift, &wave->drift, 1, 1, values);
+    }
+    gm_user_line_open(&self->line, begin, drifts ? OF_START : DRIFT, &wave->exact, values);
     start(self, places, GM_COUNT(places), ends, slopes, rates);
     gm_arena_need(arena,
                   !held || gm_user_line_numbers(wave->system, held->nodes, GM_COUNT(ends), values, ends));
-    self->mesh.left = ends[0];
-    self->mesh.right = ends[1];
-    self->mesh.density = &self->formulas.density;
-    self->mesh.alone = wave->system->alone;
-    self->mesh.drift = wave->drift == GM_NO_NODE ? NULL : drift;
-    self->mesh.relax = chosen->relax;
-    self->mesh.t = self->line.begin;
+    self->mesh = (struct gm_mesh){
+        .points = (size_t)chosen->points,
+        .alone = wave->system->alone,
+        .first = chosen->first,
+        .length = chosen->length,
+        .left = ends[0],
+        .right = ends[1],
+        .density = &formulas->density,
+        .relax = chosen->relax,
+        .t = line->begin,
+        .drift = drifts ? &self->drift : NULL,
+        .potential = wave->sine_gordon ? &gm_potential_sine_gordon : &self->functions,
+    };
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
+    choose_numbers(arena, self, opening);
+    gm_arena_keep(arena, formulas, gm_mesh_formulas_close);
     /* a formula that is refused is reported by gm_user_mesh_rests */
-    struct gm_mesh_formulas *formulas = &self->formulas;
-    gm_arena_need(arena,
-                  weigh(self, chosen, values) && gm_mesh_formulas_open(formulas, &self->names, chosen));
-    self->mesh.map = formulas->map.places ? &formulas->map : NULL;
-    self->mesh.cell = formulas->cell.first ? &formulas->cell : NULL;
+    gm_arena_need(arena, gm_mesh_formulas_open(formulas, &self->names, chosen));
+    self->mesh.map = formulas->map.outputs > 0 ? &formulas->map : NULL;
+    self->mesh.cell = formulas->cell.first.outputs > 0 ? &formulas->cell : NULL;
     self->mesh.listed = formulas->listed_count > 0 ? formulas->listed : NULL;
     self->mesh.points = self->mesh.listed ? formulas->listed_count : self->mesh.points;
     opening->problem->n = (self->mesh.alone ? 2 : 4) * self->mesh.points;
@@ -273,8 +261,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
 {
-    const struct gm_mesh_formulas *formulas = &((const struct own *)problem->parameters)->formulas;
-    gm_tape_values(&formulas->tapes[GM_TAPE_BETWEEN], at, velocity, m);
+    gm_tape_values(&((const struct own *)problem->parameters)->formulas.between, at, velocity, m);
 }
 
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
@@ -282,78 +269,91 @@ const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem)
     return &((const struct own *)problem->parameters)->names;
 }
 
-bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault)
+/* Fails if the mesh's map moves an end at time t, or does not grow with x. */
+static bool map_suits(const struct gm_mesh *mesh, double t, struct gm_fault *fault)
 {
-    const struct own *self = problem->parameters;
-    char *const sentence = fault->sentence;
-    const size_t size = sizeof fault->sentence;
-    const struct gm_grid1 grid = cells_of(&self->mesh, EXAMINED);
-    const char *name = self->line.system->variables[0].name;
-    double largest = 0, ends[2] = {0}, values[GM_LINE_BLOCK], before = self->mesh.first;
-    if (self->formulas.refused[0]) {
-        snprintf(sentence, size, "%s", self->formulas.refused);
-        return false;
+    enum { CELLS = 256 };
+    double label[CELLS + 1], x[CELLS + 1], rate[CELLS + 1];
+    for (size_t i = 0; i <= CELLS; i++) {
+        label[i] = mesh->first + mesh->length * (double)i / CELLS;
     }
-    if (self->mesh.map && (!gm_mesh_map_suits(&self->mesh, self->mesh.t, sentence, size) ||
-                           !gm_mesh_map_suits(&self->mesh, self->until, sentence, size))) {
-        return false;
-    }
-    for (size_t k = 0; self->mesh.listed && k < self->mesh.points; k++) {
-        const double x = self->formulas.listed[k], end = self->mesh.first + self->mesh.length;
-        if (!(x > before && x < end)) {
-            snprintf(sentence, size, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g", x,
-                     before, self->mesh.first, end);
-            return false;
-        }
-        before = x;
-    }
-    for (size_t from = 0, some; from < grid.points; from += some) {
-        some = gm_user_line_block(&self->line, &grid, from, values);
-        for (size_t i = 0; i < some; i++) {
-            const double u = values[i], rate = values[some + i], slope = values[2 * some + i],
-                         drift = self->mesh.drift ? values[DRIFT * some + i] : 0;
-            const bool moves = isfinite(drift);
-            if (!moves || !isfinite(u) || !isfinite(slope) || !isfinite(rate)) {
-                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g",
-                         moves ? name : "X",
-                         !moves             ? "_t"
-                         : !isfinite(u)     ? ""
-                         : !isfinite(slope) ? "_x"
-                                            : "_t",
-                         gm_grid1_node(&grid, from + i));
-                return false;
-            }
-            const double at[] = {slope, u, gm_grid1_node(&grid, from + i)};
-            double rho;
-            gm_tape_values(&self->formulas.tapes[GM_TAPE_RHO], at, &rho, 1);
-            if (!(rho >= 0 && isfinite(rho))) {
-                snprintf(sentence, size,
-                         "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity", rho,
-                         at[2]);
-                return false;
-            }
-            largest = fmax(largest, fabs(rate));
-            ends[from + i > 0] = rate;
+    gm_mesh_places(mesh, label, CELLS + 1, t, x, rate);
+    for (size_t i = 0; i <= CELLS; i += CELLS) {
+        if (!(fabs(x[i] - label[i]) <= 1e-9 * mesh->length)) {
+            return gm_fail(fault, 0, "mesh: X is %.6g at the end x = %.6g at t = %.6g, and has to stay there",
+                           x[i], label[i], t);
         }
     }
-    if (!isfinite(self->mesh.left) || !isfinite(self->mesh.right)) {
-        snprintf(sentence, size, "ends: %.60s would be %g at one and %g at the other", name, self->mesh.left,
-                 self->mesh.right);
-        return false;
-    }
-    if (!(self->names.alpha >= 0 && self->names.alpha <= 1e6)) {
-        snprintf(sentence, size, "alpha: is %g with these values, and lies between 0 and 1e6",
-                 self->names.alpha);
-        return false;
-    }
-    if (!gm_system_item_of(self->line.system, GM_WORD_ENDS, 0) &&
-        fmax(fabs(ends[0]), fabs(ends[1])) > 1e-3 * largest) {
-        snprintf(
-            sentence, size,
-            "%.60s is held at both ends of a moving mesh, and %.60s_t at the start is %.4g at one and %.4g at "
-            "the other",
-            name, name, ends[0], ends[1]);
-        return false;
+    for (size_t i = 0; i < CELLS; i++) {
+        if (!(x[i + 1] > x[i])) {
+            return gm_fail(fault, 0, "mesh: X does not grow with x at x = %.6g, t = %.6g", label[i], t);
+        }
     }
     return true;
+}
+
+static bool places_grow(const struct gm_mesh *mesh, struct gm_fault *fault)
+{
+    const double end = mesh->first + mesh->length;
+    double before = mesh->first;
+    for (size_t k = 0; mesh->listed && k < mesh->points; k++) {
+        if (!(mesh->listed[k] > before && mesh->listed[k] < end)) {
+            return gm_fail(fault, 0, "nodes: %.6g follows %.6g, and places grow, between %.6g and %.6g",
+                           mesh->listed[k], before, mesh->first, end);
+        }
+        before = mesh->listed[k];
+    }
+    return true;
+}
+
+bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault)
+{
+    static const size_t numbers[] = {DRIFT, U, SLOPE, RATE};
+    static const char *const suffixes[] = {"_t", "", "_x", "_t"};
+    const struct own *self = problem->parameters;
+    const struct gm_mesh *mesh = &self->mesh;
+    const struct gm_grid1 grid = cells_of(mesh, EXAMINED);
+    const bool held = gm_system_item_of(self->line.system, GM_WORD_ENDS, 0);
+    const char *name = self->line.system->variables[0].name;
+    double values[OF_START * (EXAMINED + 1)], largest = 0;
+    if (self->formulas.refused[0]) {
+        return gm_fail(fault, 0, "%s", self->formulas.refused);
+    }
+    if ((mesh->map && (!map_suits(mesh, mesh->t, fault) || !map_suits(mesh, self->until, fault))) ||
+        !places_grow(mesh, fault)) {
+        return false;
+    }
+    gm_user_line_start(&self->line, &grid, values);
+    for (size_t i = 0; i < grid.points; i++) {
+        const double x = gm_grid1_node(&grid, i), *at = values + i,
+                     of_density[] = {at[SLOPE * grid.points], at[U], x};
+        for (size_t k = 0; k < GM_COUNT(numbers); k++) {
+            if (numbers[k] < self->line.start.outputs && !isfinite(at[numbers[k] * grid.points])) {
+                return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g",
+                               numbers[k] == DRIFT ? "X" : name, suffixes[k], x);
+            }
+        }
+        double rho;
+        gm_tape_values(&self->formulas.rho, of_density, &rho, 1);
+        if (!(rho >= 0 && isfinite(rho))) {
+            return gm_fail(fault, 0,
+                           "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity",
+                           rho, x);
+        }
+        largest = fmax(largest, fabs(at[RATE * grid.points]));
+    }
+    if (!isfinite(mesh->left) || !isfinite(mesh->right)) {
+        return gm_fail(fault, 0, "ends: %.60s would be %g at one and %g at the other", name, mesh->left,
+                       mesh->right);
+    }
+    if (!(self->names.alpha >= 0 && self->names.alpha <= 1e6)) {
+        return gm_fail(fault, 0, "alpha: is %g with these values, and lies between 0 and 1e6",
+                       self->names.alpha);
+    }
+    const double left = values[RATE * grid.points], right = values[(RATE + 1) * grid.points - 1];
+    return held || fmax(fabs(left), fabs(right)) <= 1e-3 * largest ||
+           gm_fail(fault, 0,
+                   "%.60s is held at both ends of a moving mesh, and %.60s_t at the start is %.4g at one and "
+                   "%.4g at the other",
+                   name, name, left, right);
 }

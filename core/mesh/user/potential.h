@@ -18,7 +18,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
 /* The numbers that formulas of its mesh may hold: alpha, steepest and bend, resolved. */
 const struct gm_mesh_names *gm_user_mesh_names(const struct gm_problem *problem);
 
-/* Writes the velocities of nodes alone between them, at m places: `at` holds the inputs of GM_TAPE_BETWEEN,
+/* Writes the velocities of nodes alone between them, at m places: `at` holds the inputs of `between`,
    [number * m + place]. */
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m);
 
