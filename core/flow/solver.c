@@ -274,27 +274,30 @@ static void put_flux(struct direct *direct, size_t e, double scale)
     }
 }
 
-static void put_row(struct direct *direct, int v)
+/* Convection and diffusion of the vorticity, or of temperature, at v, and what the fluxes change in it; what leaves,
+   and temperature on the boundary, carries the value of its own cell. */
+static void put_transport(struct direct *direct, int v, bool warm)
 {
     const struct gm_flow_solver *solver = direct->solver;
-    const double *omega = direct->omega;
     const struct gm_complex *complex = solver->flow->complex;
-    put_vorticity(direct, v, solver->transport.diagonal[v]);
+    const struct gm_transport *transport = warm ? &solver->heat : &solver->transport;
+    const double *values = warm ? direct->temperature : direct->omega;
+    void (*put_value)(struct direct *, int, double) = warm ? put_warmth : put_vorticity;
     double out = 0;
+    bool boundary = false;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const int w = complex->ring_vertex[k];
         const size_t e = (size_t)complex->ring_edge[k];
-        const double sign = complex->edge[2 * e] == v ? 1 : -1;
-        put_vorticity(direct, w, solver->transport.ring[k]);
-        if (omega) {
-            put_flux(direct, e, sign * (omega[v] + omega[w]) / 2);
-            out -= sign * solver->flux[e];
-        }
+        boundary |= complex->edge_triangle[2 * e] < 0 || complex->edge_triangle[2 * e + 1] < 0;
+        out -= complex->edge[2 * e] == v ? solver->flux[e] : -solver->flux[e];
     }
-    if (omega && solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0) {
-        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-            const size_t e = (size_t)complex->ring_edge[k];
-            put_flux(direct, e, (complex->edge[2 * e] == v ? -1 : 1) * omega[v]);
+    const bool own = warm ? boundary : solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0;
+    put_value(direct, v, transport->diagonal[v]);
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const int w = complex->ring_vertex[k], e = complex->ring_edge[k];
+        put_value(direct, w, transport->ring[k]);
+        if (values) {
+            const double mean = (values[v] + values[w]) / 2 - (own ? values[v] : 0);
+            put_flux(direct, (size_t)e, complex->edge[2 * e] == v ? mean : -mean);
         }
     }
 }
@@ -336,28 +339,6 @@ static void put_lift(struct direct *direct, int v)
     }
 }
 
-/* The equation of temperature at v: convection and diffusion, and what the fluxes change in it. */
-static void put_heat(struct direct *direct, int v)
-{
-    const struct gm_flow_solver *solver = direct->solver;
-    const double *temperature = direct->temperature;
-    const struct gm_complex *complex = solver->flow->complex;
-    put_warmth(direct, v, solver->heat.diagonal[v]);
-    bool boundary = false;
-    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const size_t e = (size_t)complex->ring_edge[k];
-        boundary |= complex->edge_triangle[2 * e] < 0 || complex->edge_triangle[2 * e + 1] < 0;
-    }
-    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const int w = complex->ring_vertex[k];
-        const size_t e = (size_t)complex->ring_edge[k];
-        const double sign = complex->edge[2 * e] == v ? 1 : -1,
-                     mean = (temperature[v] + temperature[w]) / 2 - (boundary ? temperature[v] : 0);
-        put_warmth(direct, w, solver->heat.ring[k]);
-        put_flux(direct, e, sign * mean);
-    }
-}
-
 /* x = matrix^-1 b */
 static void solve_directly(struct gm_arena *arena, void *data)
 {
@@ -377,7 +358,7 @@ static void solve_directly(struct gm_arena *arena, void *data)
     direct->rows = gm_matrix_begin(arena, n, n, warm ? 3 * most : most);
     for (size_t i = 0; i < n; i++) {
         for (int k = unknowns->start[i]; k < unknowns->start[i + 1]; k++) {
-            (i < unknowns->flow ? put_row : put_heat)(direct, unknowns->vertex[k]);
+            put_transport(direct, unknowns->vertex[k], i >= unknowns->flow);
             if (i < unknowns->flow && warm) {
                 put_lift(direct, unknowns->vertex[k]);
             }
