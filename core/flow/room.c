@@ -842,13 +842,7 @@ static double varying_at(const void *data, enum gm_given what, double s, const d
 static bool locate(const struct gm_complex *complex, const double at[2], size_t *triangle, double w[3])
 {
     for (size_t t = 0; t < complex->triangles; t++) {
-        double p[6];
-        gm_complex_corners(complex, t, p);
-        for (int k = 0; k < 3; k++) {
-            const double *b = p + 2 * ((k + 1) % 3), *c = p + 2 * ((k + 2) % 3);
-            w[k] =
-                ((b[0] - at[0]) * (c[1] - at[1]) - (c[0] - at[0]) * (b[1] - at[1])) / (2 * complex->area[t]);
-        }
+        gm_complex_coordinates(complex, t, at, w);
         if (w[0] >= -1e-12 && w[1] >= -1e-12 && w[2] >= -1e-12) {
             *triangle = t;
             return true;
