@@ -47,7 +47,7 @@ bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);
 
-/* The unknowns: psi, then omega where it has no formula, then temperature, of steady states. E takes them to
+/* The unknowns: psi, then omega of vertices without a formula, then temperature, of steady states. E takes them to
    vertices. All vertices of a hole's wall share one psi, after all others. On a closed surface psi is determined up
    to a constant: vertex 0 is pinned and the mean is subtracted afterwards. */
 struct gm_unknowns {

@@ -4,7 +4,7 @@
 
 #include "core/form/matrix.h"
 
-/* Adds an unknown of one vertex where it is there; returns the unknowns of all vertices. */
+/* Adds the unknown omega of soft vertices, or the unknown temperature; returns that of each vertex, or -1. */
 static int *list_single(struct gm_arena *arena, const struct gm_flow *flow, bool warm,
                         struct gm_unknowns *unknowns)
 {

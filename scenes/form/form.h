@@ -57,7 +57,7 @@ struct gm_form_sheet {
 /* Sets the panel's axes. */
 void gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
                         const struct gm_camera *camera, double t, struct gm_form_sheet *sheet);
-/* What has values at the vertices, as triangles that share their points, without hidden ones. */
+/* Values at vertices, on triangles that share their points, without hidden ones. */
 struct gm_form_surface {
     double *points, *values; /* 2 and 1 a point */
     int *triangles;          /* 3 points each */

@@ -107,7 +107,7 @@ static void find_hidden(const struct gm_form_sheet *sheet)
     }
 }
 
-/* The numbers of the corners of the last triangle's places: a vertex, or an image of it by so many periods. */
+/* The numbers of the corners of the last triangle's places: of a vertex, or of its image on a torus. */
 static void number_images(struct gm_form_sheet *sheet, size_t triangle)
 {
     const struct gm_complex *complex = sheet->complex;
