@@ -47,21 +47,22 @@ bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);
 
-/* The unknowns psi: E takes unknowns to vertices. All vertices of a hole's wall share one, after all
-   others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
-   subtracted afterwards. */
+/* The unknowns: psi, then omega of vertices without a formula, then temperature, of steady states. E takes them to
+   vertices. All vertices of a hole's wall share one psi, after all others. On a closed surface psi is determined up
+   to a constant: vertex 0 is pinned and the mean is subtracted afterwards. */
 struct gm_unknowns {
-    size_t count;
-    int *start;  /* [count + 1], index of an unknown's first vertex */
-    int *vertex; /* vertices of the unknowns */
-    int *index;  /* unknown of a vertex; -1: psi is given */
+    size_t count, flow, all; /* psi; with omega; with temperature */
+    int *start;              /* [all + 1], index of an unknown's first vertex */
+    int *vertex;             /* vertices of the unknowns */
+    int *index;              /* unknown psi of a vertex; -1: psi is given */
+    int *soft, *warm;        /* unknown omega and temperature of a vertex; -1: none */
     bool closed;
 };
 
 /* The unknowns of a flow, in a body of the arena. */
 struct gm_unknowns gm_unknowns_of(struct gm_arena *arena, const struct gm_flow *flow);
 
-/* into[i] = the sum of values over the vertices of unknown i: E' values */
+/* into[i] = the sum of values over the vertices of unknown i, psi or omega: E' values */
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into);
 
 /* The factor of shift K between unknowns, E' K E; of a rough one shift K + viscosity K W K, W = 1 / star0

@@ -292,15 +292,6 @@ static void read_line(struct room_reading *here, const struct gm_read_line *said
 
 /* ---- the mesh ---- */
 
-/* Takes the first word off the front. */
-static struct gm_span take_word(const struct gm_reading *reading, struct gm_span *rest)
-{
-    const size_t end = rest->begin + strcspn(reading->text + rest->begin, " \t\r\n");
-    const struct gm_span word = {rest->begin, end < rest->end ? end : rest->end};
-    *rest = gm_reading_between(reading, word.end, rest->end);
-    return word;
-}
-
 /* keep x, y */
 static void read_kept(struct gm_reading *reading, struct gm_room *room, struct gm_span value)
 {
@@ -342,7 +333,7 @@ static void read_mesh(struct room_reading *here, const struct gm_read_line *line
         return;
     }
     while (gm_span_take(reading->text, &rest, ";", &value)) {
-        const struct gm_span word = take_word(reading, &value);
+        const struct gm_span word = gm_reading_word(reading, &value);
         size_t i = 0;
         while (i < GM_COUNT(options) && !gm_span_is(reading->text, word, options[i].word)) {
             i++;
@@ -451,7 +442,7 @@ static void read_colours(struct room_reading *here, const struct gm_read_line *l
     struct gm_span rest = line->value, piece;
     while (gm_span_take(here->reading.text, &rest, ",", &piece)) {
         const size_t place = piece.begin;
-        const struct gm_span word = take_word(&here->reading, &piece);
+        const struct gm_span word = gm_reading_word(&here->reading, &piece);
         struct gm_system_item *item = gm_reading_item(&here->reading, line, word);
         const bool known = words[gm_span_among(here->reading.text, word, words)];
         item->value = known ? gm_reading_finite(&here->reading, piece) : 0;
@@ -475,10 +466,10 @@ static void read_profile(struct room_reading *here, const struct gm_read_line *l
     struct gm_span rest = line->value, head, piece;
     gm_span_take(reading->text, &rest, ";", &head);
     char *letters = gm_arena_take(reading->system->arena, head.end - head.begin + 1, 1);
-    struct gm_system_item *item = gm_reading_item(reading, line, take_word(reading, &head));
+    struct gm_system_item *item = gm_reading_item(reading, line, gm_reading_word(reading, &head));
     item->words = letters;
     while (head.begin < head.end) {
-        const struct gm_span word = take_word(reading, &head);
+        const struct gm_span word = gm_reading_word(reading, &head);
         gm_system_refuse_if(reading->system, !quantities[gm_span_among(reading->text, word, quantities)],
                             line->value.begin, "a profile shows u, v or scalar");
         *letters++ = reading->text[word.begin];
@@ -504,12 +495,12 @@ static void read_table(struct room_reading *here, const struct gm_read_line *lin
     gm_span_take(reading->text, &rest, ";", &head);
     gm_span_take(reading->text, &rest, ";", &value);
     gm_span_take(reading->text, &value, "=", &piece);
-    struct gm_system_item *item = gm_reading_item(reading, line, take_word(reading, &head));
+    struct gm_system_item *item = gm_reading_item(reading, line, gm_reading_word(reading, &head));
     item->words = gm_reading_text(reading, head);
     item->text = gm_reading_text(reading, piece);
     item->value = gm_reading_finite(reading, value);
     while (gm_span_take(reading->text, &rest, ",", &piece)) {
-        gm_item_numbers(reading, item, take_word(reading, &piece));
+        gm_item_numbers(reading, item, gm_reading_word(reading, &piece));
         if (gm_item_numbers(reading, item, piece) % 2 == 1) {
             gm_item_number(reading, item, NAN);
         }
@@ -851,13 +842,7 @@ static double varying_at(const void *data, enum gm_given what, double s, const d
 static bool locate(const struct gm_complex *complex, const double at[2], size_t *triangle, double w[3])
 {
     for (size_t t = 0; t < complex->triangles; t++) {
-        double p[6];
-        gm_complex_corners(complex, t, p);
-        for (int k = 0; k < 3; k++) {
-            const double *b = p + 2 * ((k + 1) % 3), *c = p + 2 * ((k + 2) % 3);
-            w[k] =
-                ((b[0] - at[0]) * (c[1] - at[1]) - (c[0] - at[0]) * (b[1] - at[1])) / (2 * complex->area[t]);
-        }
+        gm_complex_coordinates(complex, t, at, w);
         if (w[0] >= -1e-12 && w[1] >= -1e-12 && w[2] >= -1e-12) {
             *triangle = t;
             return true;

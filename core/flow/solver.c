@@ -24,41 +24,21 @@ static bool has_row(const struct gm_flow_solver *solver, size_t v)
            (i >= 0 && unknowns->start[i + 1] - unknowns->start[i] == 1);
 }
 
-static void list_unknowns(struct gm_flow_solver *solver)
-{
-    const struct gm_flow *flow = solver->flow;
-    struct gm_arena *arena = solver->arena;
-    const size_t n = flow->complex->vertices;
-    solver->soft_vertex = gm_arena_take(arena, n, sizeof(int));
-    solver->soft_index = gm_arena_take(arena, n, sizeof(int));
-    solver->warm_vertex = gm_arena_take(arena, n, sizeof(int));
-    solver->warm_index = gm_arena_take(arena, n, sizeof(int));
-    solver->held = gm_arena_take(arena, n, sizeof(bool));
-    for (size_t v = 0; v < n; v++) {
-        const bool soft = flow->kind[v] == GM_VERTEX_SOFT, warm = flow->heat && !flow->temperature_fixed[v];
-        solver->soft_index[v] = soft ? (int)(solver->unknowns.count + solver->soft) : -1;
-        solver->soft_vertex[solver->soft] = (int)v;
-        solver->soft += soft;
-        solver->warm_index[v] = warm ? (int)solver->warm : -1; /* after all others */
-        solver->warm_vertex[solver->warm] = (int)v;
-        solver->warm += warm;
-        solver->held[v] = solver->vorticity_form ? flow->kind[v] == GM_VERTEX_SLIP : !has_row(solver, v);
-    }
-}
-
 static void take_memory(struct gm_flow_solver *solver)
 {
     const struct gm_complex *complex = solver->flow->complex;
     struct gm_arena *arena = solver->arena;
-    const size_t v = complex->vertices, z = solver->unknowns.count + solver->soft;
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    const size_t v = complex->vertices, z = unknowns->flow;
     solver->flux = gm_arena_take(arena, complex->edges, sizeof(double));
     solver->centre = gm_arena_take(arena, complex->triangles, sizeof(double));
     solver->rate = gm_arena_take(arena, v, sizeof(double));
     solver->field = gm_arena_take(arena, v, sizeof(double));
     solver->velocities = gm_arena_take(arena, 3 * v, sizeof(double));
     solver->carried_rate = gm_arena_take(arena, v, sizeof(double));
-    solver->b = gm_arena_take(arena, 2 * (z + solver->warm), sizeof(double));
-    solver->x = solver->b + z + solver->warm;
+    solver->held = gm_arena_take(arena, v, sizeof(bool));
+    solver->b = gm_arena_take(arena, 2 * unknowns->all, sizeof(double));
+    solver->x = solver->b + unknowns->all;
     solver->small_b = gm_arena_take(arena, z, sizeof(double));
     solver->bicgstab = gm_arena_take(arena, 8 * v, sizeof(double));
     solver->transport = gm_transport_of(arena, complex);
@@ -113,8 +93,10 @@ static void open_solver(struct gm_arena *arena, void *data)
     solver->energy_limit = INFINITY;
     solver->vorticity_form = is_vorticity_form(flow);
     solver->unknowns = gm_unknowns_of(arena, flow);
-    list_unknowns(solver);
     take_memory(solver);
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        solver->held[v] = solver->vorticity_form ? flow->kind[v] == GM_VERTEX_SLIP : !has_row(solver, v);
+    }
     *(void **)data = solver;
 }
 
@@ -185,16 +167,12 @@ static void apply(void *data, const double *z, double *y)
         psi[v] = unknowns->index[v] < 0 ? 0 : z[unknowns->index[v]];
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        omega[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0 : gm_flow_row(complex, psi, v) / complex->star0[v];
-    }
-    for (size_t i = 0; i < solver->soft; i++) {
-        omega[solver->soft_vertex[i]] = z[unknowns->count + i];
+        omega[v] = unknowns->soft[v] >= 0            ? z[unknowns->soft[v]]
+                   : flow->kind[v] == GM_VERTEX_SLIP ? 0
+                                                     : gm_flow_row(complex, psi, v) / complex->star0[v];
     }
     gm_transport_apply(&solver->transport, omega, psi);
     gm_unknowns_gather(unknowns, psi, y);
-    for (size_t i = 0; i < solver->soft; i++) {
-        y[unknowns->count + i] = psi[solver->soft_vertex[i]];
-    }
 }
 
 /* The convection C of solver->transport, but for the soft vertices' columns, which keep B. */
@@ -220,10 +198,8 @@ static void precondition(void *data, const double *r, double *z)
     const struct gm_unknowns *unknowns = &solver->unknowns;
     double *b = solver->small_b, *right = solver->rate, *omega = solver->field;
     for (size_t v = 0; v < solver->flow->complex->vertices; v++) {
-        right[v] = unknowns->index[v] < 0 ? 0 : r[unknowns->index[v]];
-    }
-    for (size_t i = 0; i < solver->soft; i++) {
-        right[solver->soft_vertex[i]] = r[unknowns->count + i];
+        const int i = unknowns->index[v] < 0 ? unknowns->soft[v] : unknowns->index[v];
+        right[v] = i < 0 ? 0 : r[i];
     }
     gm_transport_precondition(&solver->transport, right, omega);
     gm_transport_apply(&solver->convection, omega, right);
@@ -231,8 +207,8 @@ static void precondition(void *data, const double *r, double *z)
     for (size_t i = 0; i < unknowns->count; i++) {
         b[i] = r[i] - b[i];
     }
-    for (size_t i = 0; i < solver->soft; i++) {
-        z[unknowns->count + i] = omega[solver->soft_vertex[i]];
+    for (size_t i = unknowns->count; i < unknowns->flow; i++) {
+        z[i] = omega[unknowns->vertex[unknowns->start[i]]];
     }
     gm_cholesky_solve(solver->stokes, b, z);
     solver->factor_solves++;
@@ -254,9 +230,7 @@ static void put(struct direct *direct, int column, double value)
 /* Adds to the column of a vertex' temperature, if it has one. */
 static void put_warmth(struct direct *direct, int v, double value)
 {
-    const struct gm_flow_solver *solver = direct->solver;
-    const int i = solver->warm_index[v];
-    put(direct, i < 0 ? -1 : i + (int)(solver->unknowns.count + solver->soft), value);
+    put(direct, direct->solver->unknowns.warm[v], value);
 }
 
 /* scale times row v of omega(z) */
@@ -269,7 +243,7 @@ static void put_vorticity(struct direct *direct, int v, double scale)
         return;
     }
     if (flow->kind[v] == GM_VERTEX_SOFT) {
-        put(direct, solver->soft_index[v], scale);
+        put(direct, solver->unknowns.soft[v], scale);
         return;
     }
     scale /= complex->star0[v];
@@ -300,27 +274,30 @@ static void put_flux(struct direct *direct, size_t e, double scale)
     }
 }
 
-static void put_row(struct direct *direct, int v)
+/* Convection and diffusion of the vorticity, or of temperature, at v, and what the fluxes change in it; what leaves,
+   and temperature on the boundary, carries the value of its own cell. */
+static void put_transport(struct direct *direct, int v, bool warm)
 {
     const struct gm_flow_solver *solver = direct->solver;
-    const double *omega = direct->omega;
     const struct gm_complex *complex = solver->flow->complex;
-    put_vorticity(direct, v, solver->transport.diagonal[v]);
+    const struct gm_transport *transport = warm ? &solver->heat : &solver->transport;
+    const double *values = warm ? direct->temperature : direct->omega;
+    void (*put_value)(struct direct *, int, double) = warm ? put_warmth : put_vorticity;
     double out = 0;
+    bool boundary = false;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const int w = complex->ring_vertex[k];
         const size_t e = (size_t)complex->ring_edge[k];
-        const double sign = complex->edge[2 * e] == v ? 1 : -1;
-        put_vorticity(direct, w, solver->transport.ring[k]);
-        if (omega) {
-            put_flux(direct, e, sign * (omega[v] + omega[w]) / 2);
-            out -= sign * solver->flux[e];
-        }
+        boundary |= complex->edge_triangle[2 * e] < 0 || complex->edge_triangle[2 * e + 1] < 0;
+        out -= complex->edge[2 * e] == v ? solver->flux[e] : -solver->flux[e];
     }
-    if (omega && solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0) {
-        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-            const size_t e = (size_t)complex->ring_edge[k];
-            put_flux(direct, e, (complex->edge[2 * e] == v ? -1 : 1) * omega[v]);
+    const bool own = warm ? boundary : solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0;
+    put_value(direct, v, transport->diagonal[v]);
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const int w = complex->ring_vertex[k], e = complex->ring_edge[k];
+        put_value(direct, w, transport->ring[k]);
+        if (values) {
+            const double mean = (values[v] + values[w]) / 2 - (own ? values[v] : 0);
+            put_flux(direct, (size_t)e, complex->edge[2 * e] == v ? mean : -mean);
         }
     }
 }
@@ -362,28 +339,6 @@ static void put_lift(struct direct *direct, int v)
     }
 }
 
-/* The equation of temperature at v: convection and diffusion, and what the fluxes change in it. */
-static void put_heat(struct direct *direct, int v)
-{
-    const struct gm_flow_solver *solver = direct->solver;
-    const double *temperature = direct->temperature;
-    const struct gm_complex *complex = solver->flow->complex;
-    put_warmth(direct, v, solver->heat.diagonal[v]);
-    bool boundary = false;
-    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const size_t e = (size_t)complex->ring_edge[k];
-        boundary |= complex->edge_triangle[2 * e] < 0 || complex->edge_triangle[2 * e + 1] < 0;
-    }
-    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-        const int w = complex->ring_vertex[k];
-        const size_t e = (size_t)complex->ring_edge[k];
-        const double sign = complex->edge[2 * e] == v ? 1 : -1,
-                     mean = (temperature[v] + temperature[w]) / 2 - (boundary ? temperature[v] : 0);
-        put_warmth(direct, w, solver->heat.ring[k]);
-        put_flux(direct, e, sign * mean);
-    }
-}
-
 /* x = matrix^-1 b */
 static void solve_directly(struct gm_arena *arena, void *data)
 {
@@ -391,8 +346,8 @@ static void solve_directly(struct gm_arena *arena, void *data)
     struct gm_flow_solver *solver = direct->solver;
     const struct gm_complex *complex = solver->flow->complex;
     const struct gm_unknowns *unknowns = &solver->unknowns;
-    const size_t warm = direct->temperature ? solver->warm : 0, flow_rows = unknowns->count + solver->soft,
-                 n = flow_rows + warm;
+    const bool warm = direct->temperature;
+    const size_t n = warm ? unknowns->all : unknowns->flow;
     size_t most = 0;
     for (size_t v = 0; v < complex->vertices; v++) {
         for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
@@ -400,21 +355,12 @@ static void solve_directly(struct gm_arena *arena, void *data)
             most += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 2);
         }
     }
-    direct->rows = gm_matrix_begin(arena, n, n, warm > 0 ? 3 * most : most);
+    direct->rows = gm_matrix_begin(arena, n, n, warm ? 3 * most : most);
     for (size_t i = 0; i < n; i++) {
-        const bool flows = i < flow_rows, stream = i < unknowns->count;
-        const int *vertex = stream  ? unknowns->vertex + unknowns->start[i]
-                            : flows ? solver->soft_vertex + (i - unknowns->count)
-                                    : solver->warm_vertex + (i - flow_rows);
-        const int vertices = stream ? unknowns->start[i + 1] - unknowns->start[i] : 1;
-        for (int k = 0; k < vertices; k++) {
-            if (flows) {
-                put_row(direct, vertex[k]);
-            } else {
-                put_heat(direct, vertex[k]);
-            }
-            if (flows && warm > 0) {
-                put_lift(direct, vertex[k]);
+        for (int k = unknowns->start[i]; k < unknowns->start[i + 1]; k++) {
+            put_transport(direct, unknowns->vertex[k], i >= unknowns->flow);
+            if (i < unknowns->flow && warm) {
+                put_lift(direct, unknowns->vertex[k]);
             }
         }
         gm_matrix_end_row(&direct->rows, true);
@@ -427,7 +373,7 @@ static void solve_directly(struct gm_arena *arena, void *data)
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations)
 {
     const double tolerance = 1e-13;
-    const size_t n = solver->unknowns.count + solver->soft;
+    const size_t n = solver->unknowns.flow;
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(solver->b[i])) {
             return false;
@@ -445,9 +391,9 @@ bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, c
     if (temperature) {
         gm_transport_apply(&solver->heat, temperature, solver->field);
     }
-    for (size_t i = 0; temperature && i < solver->warm; i++) {
-        const int v = solver->warm_vertex[i];
-        solver->b[solver->unknowns.count + solver->soft + i] = solver->flow->heating[v] - solver->field[v];
+    for (size_t i = solver->unknowns.flow; temperature && i < solver->unknowns.all; i++) {
+        const int v = solver->unknowns.vertex[solver->unknowns.start[i]];
+        solver->b[i] = solver->flow->heating[v] - solver->field[v];
     }
     return gm_arena_run_once(solve_directly, &(struct direct){solver, omega, temperature, {0}});
 }

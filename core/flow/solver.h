@@ -13,10 +13,6 @@ struct gm_flow_solver {
     struct gm_flow *now;        /* flow at the time of gm_flow_solver_give; NULL: constant */
     struct gm_unknowns unknowns;
     bool vorticity_form;
-    size_t soft;                   /* vertices whose omega is an unknown of its own */
-    int *soft_vertex, *soft_index; /* these, and the column of a vertex; -1: it has none */
-    size_t warm;                   /* vertices whose temperature is an unknown, of steady states */
-    int *warm_vertex, *warm_index;
     bool *held; /* vertices whose omega has no equation of its own */
     struct gm_cholesky *poisson;
     double energy_limit;     /* largest energy that these boundaries can drive; set with the factors */
@@ -29,8 +25,8 @@ struct gm_flow_solver {
     double *flux, *centre;               /* edges, triangles */
     double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
     double *carried_rate;                /* vertices */
-    double *b, *x;                       /* unknowns, soft and warm vertices; one after the other */
-    double *small_b;                     /* unknowns, scratch of the preconditioner */
+    double *b, *x;                       /* all unknowns */
+    double *small_b;                     /* unknowns of the flow, scratch of the preconditioner */
     double *gmres, *bicgstab;
 };
 

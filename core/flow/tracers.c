@@ -5,28 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Barycentric coordinates of a point; on a torus of its image next to the triangle. */
-static void coordinates(const struct gm_complex *complex, int triangle, const double x[2], double w[3])
-{
-    double p[6], at[2];
-    gm_complex_corners(complex, (size_t)triangle, p);
-    for (int c = 0; c < 2; c++) {
-        const double period = complex->period[c];
-        at[c] = x[c] - p[c];
-        at[c] -= period > 0 ? period * round(at[c] / period) : 0;
-    }
-    const double twice = 2 * complex->area[triangle];
-    w[1] = (at[0] * (p[5] - p[1]) - at[1] * (p[4] - p[0])) / twice;
-    w[2] = (at[1] * (p[2] - p[0]) - at[0] * (p[3] - p[1])) / twice;
-    w[0] = 1 - w[1] - w[2];
-}
-
 /* Walks from place->triangle towards the point; returns false if the walk leaves the mesh. */
 static bool locate(const struct gm_complex *complex, struct gm_flow_place *place, double w[3])
 {
     enum { FARTHEST = 1000 };
     for (int i = 0; i < FARTHEST; i++) {
-        coordinates(complex, place->triangle, place->x, w);
+        gm_complex_coordinates(complex, (size_t)place->triangle, place->x, w);
         int worst = 0;
         for (int k = 1; k < 3; k++) {
             worst = w[k] < w[worst] ? k : worst;

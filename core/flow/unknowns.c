@@ -4,11 +4,29 @@
 
 #include "core/form/matrix.h"
 
+/* Adds the unknown omega of soft vertices, or the unknown temperature; returns that of each vertex, or -1. */
+static int *list_single(struct gm_arena *arena, const struct gm_flow *flow, bool warm,
+                        struct gm_unknowns *unknowns)
+{
+    const size_t n = flow->complex->vertices;
+    int *index = gm_arena_take(arena, n, sizeof *index);
+    for (size_t v = 0; v < n; v++) {
+        const bool there = warm ? flow->heat && !flow->temperature_fixed[v] : flow->kind[v] == GM_VERTEX_SOFT;
+        const int used = unknowns->start[unknowns->all];
+        index[v] = there ? (int)unknowns->all : -1;
+        if (there) {
+            unknowns->vertex[used] = (int)v;
+            unknowns->start[++unknowns->all] = used + 1;
+        }
+    }
+    return index;
+}
+
 struct gm_unknowns gm_unknowns_of(struct gm_arena *arena, const struct gm_flow *flow)
 {
     const size_t n = flow->complex->vertices;
-    struct gm_unknowns unknowns = {.start = gm_arena_take(arena, n + 1, sizeof(int)),
-                                   .vertex = gm_arena_take(arena, n, sizeof(int)),
+    struct gm_unknowns unknowns = {.start = gm_arena_take(arena, 3 * n + 1, sizeof(int)),
+                                   .vertex = gm_arena_take(arena, 3 * n, sizeof(int)),
                                    .index = gm_arena_take(arena, n, sizeof(int)),
                                    .closed = flow->complex->boundary == 0};
     int used = 0;
@@ -33,12 +51,16 @@ struct gm_unknowns gm_unknowns_of(struct gm_arena *arena, const struct gm_flow *
         unknowns.count++;
     }
     unknowns.start[unknowns.count] = used;
+    unknowns.all = unknowns.count;
+    unknowns.soft = list_single(arena, flow, false, &unknowns);
+    unknowns.flow = unknowns.all;
+    unknowns.warm = list_single(arena, flow, true, &unknowns);
     return unknowns;
 }
 
 void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into)
 {
-    for (size_t i = 0; i < unknowns->count; i++) {
+    for (size_t i = 0; i < unknowns->flow; i++) {
         int k = unknowns->start[i];
         into[i] = values[unknowns->vertex[k]];
         while (++k < unknowns->start[i + 1]) {

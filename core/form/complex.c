@@ -110,6 +110,21 @@ void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double
     }
 }
 
+void gm_complex_coordinates(const struct gm_complex *complex, size_t triangle, const double x[2], double w[3])
+{
+    double p[6], at[2];
+    gm_complex_corners(complex, triangle, p);
+    for (int c = 0; c < 2; c++) {
+        const double period = complex->period[c];
+        at[c] = x[c] - p[c];
+        at[c] -= period > 0 ? period * round(at[c] / period) : 0;
+    }
+    const double twice = 2 * complex->area[triangle];
+    w[1] = (at[0] * (p[5] - p[1]) - at[1] * (p[4] - p[0])) / twice;
+    w[2] = (at[1] * (p[2] - p[0]) - at[0] * (p[3] - p[1])) / twice;
+    w[0] = 1 - w[1] - w[2];
+}
+
 void gm_complex_middle(const struct gm_complex *complex, size_t edge, double middle[2])
 {
     const double *a = complex->point + 2 * complex->edge[2 * edge],

@@ -144,6 +144,10 @@ void gm_complex_quarter(const struct gm_complex *complex, double *points, int *c
 /* The dual vertex of a triangle. */
 void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2]);
 
+/* Barycentric coordinates of a point in a triangle of the plane; on a torus of its image next to the triangle. */
+void gm_complex_coordinates(const struct gm_complex *complex, size_t triangle, const double x[2],
+                            double w[3]);
+
 /* The middle of an edge; not where a torus is cut. */
 void gm_complex_middle(const struct gm_complex *complex, size_t edge, double middle[2]);
 

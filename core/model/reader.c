@@ -594,16 +594,10 @@ static void read_ring(struct gm_reading *reading, const struct gm_read_line *lin
 /* mesh: sphere 1 level: a word, and numbers separated by blanks, which may be formulas without blanks */
 static void read_generator(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_system_item *item = NULL;
-    for (size_t at = line->value.begin; at < line->value.end;) {
-        const size_t end = at + strcspn(reading->text + at, " \t\r\n");
-        const struct gm_span word = {at, end < line->value.end ? end : line->value.end};
-        if (item) {
-            add_formula(reading, item, word);
-        } else {
-            item = gm_reading_item(reading, line, word);
-        }
-        at = word.end + strspn(reading->text + word.end, " \t\r\n");
+    struct gm_span rest = line->value;
+    struct gm_system_item *item = gm_reading_item(reading, line, gm_reading_word(reading, &rest));
+    while (rest.begin < rest.end) {
+        add_formula(reading, item, gm_reading_word(reading, &rest));
     }
 }
 
@@ -841,10 +835,9 @@ static void read_shown_text(struct gm_reading *reading, const struct gm_read_lin
 /* boundary: PART NAME = formula, of forms */
 static void read_held(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    const size_t end = line->value.begin + strcspn(reading->text + line->value.begin, " \t\r\n");
-    const struct gm_span part = {line->value.begin, end < line->value.end ? end : line->value.end};
-    const struct gm_target target =
-        gm_reading_assignment(reading, gm_reading_between(reading, part.end, line->value.end));
+    struct gm_span rest = line->value;
+    const struct gm_span part = gm_reading_word(reading, &rest);
+    const struct gm_target target = gm_reading_assignment(reading, rest);
     const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
     struct gm_system_item *item = gm_reading_item(reading, line, part);
     add_formula(reading, item, target.value);

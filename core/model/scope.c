@@ -82,6 +82,14 @@ struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin
     return gm_span_trimmed(reading->text, (struct gm_span){begin, end});
 }
 
+struct gm_span gm_reading_word(const struct gm_reading *reading, struct gm_span *rest)
+{
+    const size_t end = rest->begin + strcspn(reading->text + rest->begin, " \t\r\n");
+    const struct gm_span word = {rest->begin, end < rest->end ? end : rest->end};
+    *rest = gm_reading_between(reading, word.end, rest->end);
+    return word;
+}
+
 static uint32_t *slot_of(const struct gm_reading *reading, const char *name, size_t length, bool indexed,
                          long index)
 {

@@ -88,6 +88,8 @@ _Noreturn void gm_reading_refuse_second(struct gm_reading *reading, size_t place
                                         const struct gm_entry *first);
 /* Words with one blank between them, in the system's memory. */
 char *gm_reading_text(struct gm_reading *reading, struct gm_span span);
+/* Takes the first word off the front; what is left has no blanks before it. */
+struct gm_span gm_reading_word(const struct gm_reading *reading, struct gm_span *rest);
 /* The text from one offset to another, without blanks and comments around it. */
 struct gm_span gm_reading_between(const struct gm_reading *reading, size_t begin, size_t end);
 

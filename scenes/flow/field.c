@@ -4,6 +4,7 @@
 #include "core/functions/functions.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/look.h"
+#include "scenes/form/form.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,60 +61,28 @@ static double *refine(struct gm_picture *picture, const struct gm_complex *compl
     return fine;
 }
 
-/* A torus is drawn unfolded: vertices come nine times, shifted by the periods, and triangles that stick out
-   at one side come again at the other. */
-static struct sheet unfold(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
-                           const double *field)
+/* Values at vertices, as those of the corners of triangles. */
+static const double *at_corners(struct gm_picture *picture, const struct gm_complex *complex,
+                                const double *values)
 {
-    enum { COPIES = 9 };
-    const size_t n = complex->vertices;
-    double *points = gm_picture_memory(picture, 2 * COPIES * n * sizeof *points);
-    double *own_psi = gm_picture_memory(picture, COPIES * n * sizeof *own_psi);
-    double *user_field = gm_picture_memory(picture, COPIES * n * sizeof *user_field);
-    int *triangles = gm_picture_memory(picture, 3 * 4 * complex->triangles * sizeof *triangles);
-    for (size_t i = 0; i < COPIES * n; i++) {
-        const size_t v = i % n, copy = i / n;
-        points[2 * i] = complex->point[2 * v] + complex->period[0] * ((double)(copy % 3) - 1);
-        points[2 * i + 1] = complex->point[2 * v + 1] + complex->period[1] * ((double)(copy / 3) - 1);
-        own_psi[i] = psi[v];
-        user_field[i] = field ? field[v] : 0;
+    double *corners = gm_picture_memory(picture, 3 * complex->triangles * sizeof *corners);
+    for (size_t i = 0; i < 3 * complex->triangles; i++) {
+        corners[i] = values[complex->triangle[i]];
     }
-    size_t count = 0;
-    for (size_t t = 0; t < complex->triangles; t++) {
-        double p[6];
-        gm_complex_corners(complex, t, p);
-        for (int copy = 0; copy < COPIES; copy++) {
-            int corners[3];
-            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-            bool there = true;
-            for (int k = 0; k < 3; k++) {
-                const int v = complex->triangle[3 * t + (size_t)k];
-                int shift[2];
-                for (int c = 0; c < 2; c++) {
-                    const double period = complex->period[c], moved = (c ? copy / 3 : copy % 3) - 1;
-                    const double x = p[2 * k + c] + period * moved;
-                    shift[c] = (int)round((x - complex->point[2 * v + c]) / period) + 1;
-                    there &= shift[c] >= 0 && shift[c] < 3;
-                    low[c] = fmin(low[c], x / period);
-                    high[c] = fmax(high[c], x / period);
-                }
-                corners[k] = v + (int)n * (shift[0] + 3 * shift[1]);
-            }
-            if (there && low[0] < 1 && low[1] < 1 && high[0] > 0 && high[1] > 0 &&
-                count < 4 * complex->triangles) {
-                memcpy(triangles + 3 * count++, corners, sizeof corners);
-            }
-        }
-    }
-    return (struct sheet){points, own_psi, field ? user_field : NULL, triangles, COPIES * n, count};
+    return corners;
 }
 
 /* Makes the sheet in the picture's arena; psi and field are values at the vertices. */
-static struct sheet sheet_of(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
-                             const double *field)
+static struct sheet sheet_of(const struct gm_form_sheet *plane, const double *psi, const double *field)
 {
+    struct gm_picture *picture = plane->picture;
+    const struct gm_complex *complex = plane->complex;
     if (complex->boundary == 0) {
-        return unfold(picture, complex, psi, field);
+        const struct gm_form_surface flow = gm_form_surface_of(plane, at_corners(picture, complex, psi)),
+                                     shown = gm_form_surface_of(
+                                         plane, at_corners(picture, complex, field ? field : psi));
+        return (struct sheet){flow.points,    flow.values, field ? shown.values : NULL,
+                              flow.triangles, flow.count,  flow.triangle_count};
     }
     if (complex->triangles > REFINED) {
         return (struct sheet){complex->point,    psi, field, complex->triangle, complex->vertices,
@@ -212,30 +181,9 @@ static void draw_walls(struct gm_picture *picture, struct gm_panel *panel, const
     gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1, 2.2, GM_SOLID}, points, count, false);
 }
 
-/* Draws the edges of the mesh, over a field of colours if `over`. */
-static void draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
-                      bool over)
-{
-    double *points = gm_picture_memory(picture, 6 * complex->edges * sizeof *points);
-    for (size_t e = 0; e < complex->edges; e++) {
-        const double *a = complex->point + 2 * complex->edge[2 * e],
-                     *b = complex->point + 2 * complex->edge[2 * e + 1];
-        double *line = points + 6 * e;
-        memcpy(line, a, 2 * sizeof *line);
-        for (int c = 0; c < 2; c++) {
-            const double period = complex->period[c];
-            line[2 + c] = b[c] - (period > 0 ? period * round((b[c] - a[c]) / period) : 0);
-        }
-        line[4] = line[5] = NAN;
-    }
-    gm_mark_line(picture, panel,
-                 (struct gm_style){over ? GM_OVER : GM_SECONDARY, over ? 0.25 : 0.8, 0.8, GM_SOLID}, points,
-                 3 * complex->edges, false);
-}
-
 /* Draws tracers: a dot each, and a tail to its position a short time ago. `size`: the longer side of the domain. */
 static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                         bool over, double size)
+                         enum gm_role role, double size)
 {
     const struct gm_flow *flow = flow_of(lane);
     const double *y = gm_run_state(lane->run);
@@ -261,43 +209,20 @@ static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, con
         tails[6 * i + 3] = tracer[GM_TRACER_Y] - lag * u[1];
         tails[6 * i + 4] = tails[6 * i + 5] = NAN;
     }
-    const enum gm_role role = over ? GM_OVER : GM_INK;
     gm_mark_line(picture, panel, (struct gm_style){role, 0.55, 1.5, GM_SOLID}, tails, 3 * met, false);
     gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 2.4}, dots, met);
 }
 
-/* Draws arrows of velocity on an even grid; one of `speed` is as long as their distance. */
-static void draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
-                        bool over, double speed)
+/* Draws arrows of velocity; one of `speed` is as long as their distance. */
+static void draw_arrows(const struct gm_form_sheet *plane, struct gm_style style, const double *psi,
+                        double speed)
 {
-    enum { ACROSS = 24 };
-    const struct gm_complex *complex = flow_of(lane)->complex;
-    double *velocities = gm_picture_memory(picture, 3 * complex->vertices * sizeof *velocities);
-    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
-    const double cell = fmax(width, height) / ACROSS;
-    const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
-    bool *taken = gm_picture_memory(picture, columns * rows * sizeof *taken);
-    double *lines = gm_picture_memory(picture, 14 * columns * rows * sizeof *lines);
-    memset(taken, 0, columns * rows * sizeof *taken);
-    gm_flow_vertex_velocities(complex, gm_run_state(lane->run), velocities);
-    size_t count = 0;
-    for (size_t v = 0; v < complex->vertices; v++) {
-        const double x = complex->point[2 * v], z = complex->point[2 * v + 1];
-        const double at[2] = {(x - panel->x.low) / cell, (z - panel->y.low) / cell};
-        const size_t place = (size_t)fmax(at[1], 0) * columns + (size_t)fmax(at[0], 0);
-        const bool middle =
-            fabs(at[0] - floor(at[0]) - 0.5) < 0.25 && fabs(at[1] - floor(at[1]) - 0.5) < 0.25;
-        if (place >= columns * rows || taken[place] || !middle) {
-            continue;
-        }
-        taken[place] = true;
-        const double arrow[2] = {velocities[2 * v] / speed * cell * 0.9,
-                                 velocities[2 * v + 1] / speed * cell * 0.9};
-        gm_arrow(x, z, arrow, lines + 2 * count);
-        count += 7;
+    const struct gm_complex *complex = plane->complex;
+    double *vectors = gm_picture_memory(plane->picture, 3 * complex->triangles * sizeof *vectors);
+    for (size_t t = 0; t < complex->triangles; t++) {
+        gm_flow_velocity(complex, psi, t, vectors + 3 * t);
     }
-    gm_mark_line(picture, panel, (struct gm_style){over ? GM_OVER : GM_INK, 0.9, 1.3, GM_SOLID}, lines, count,
-                 false);
+    gm_form_draw_arrows(plane, style, vectors, speed);
 }
 
 /* Sets `outward` to the way out through an opening, with its length, and `middle`. */
@@ -423,20 +348,10 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, alone ? "" : title_of(picture, lane));
-    double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (size_t v = 0; v < complex->vertices; v++) {
-        for (int c = 0; c < 2; c++) {
-            box[2 * c] = fmin(box[2 * c], complex->point[2 * v + (size_t)c]);
-            box[2 * c + 1] = fmax(box[2 * c + 1], complex->point[2 * v + (size_t)c]);
-        }
-    }
-    for (int c = 0; c < 2; c++) {
-        if (complex->period[c] > 0) {
-            box[2 * c] = 0;
-            box[2 * c + 1] = complex->period[c];
-        }
-    }
-    const double size = fmax(box[1] - box[0], box[3] - box[2]),
+    struct gm_form_sheet plane;
+    gm_form_sheet_make(picture, panel, complex, NULL, 0, &plane);
+    const double *low = plane.sight.low, *high = plane.sight.high,
+                 size = fmax(high[0] - low[0], high[1] - low[1]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
     const double beside = flow->inflow.count > 0 && alone && !look->sides ? 0.15 * size : edge;
     /* names of openings are outside, and need their width in small pictures too */
@@ -453,23 +368,20 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
             *room = fmax(*room, fmin(0.04 * letters, 0.3) * size);
         }
     }
-    panel->x = (struct gm_axis){.label = "", .low = box[0] - aside[0], .high = box[1] + aside[1]};
-    panel->y = (struct gm_axis){.label = "",
-                                .low = box[2] - (stands[0] ? 0.06 * size : edge),
-                                .high = box[3] + (stands[1] ? 0.06 * size : edge)};
-    panel->equal = true;
     panel->axes = look->axes[0] && alone;
-    if (panel->axes) {
-        panel->x.label = look->axes[0];
-        panel->y.label = look->axes[1];
-    }
+    panel->x = (struct gm_axis){
+        .label = panel->axes ? look->axes[0] : "", .low = low[0] - aside[0], .high = high[0] + aside[1]};
+    panel->y = (struct gm_axis){.label = panel->axes ? look->axes[1] : "",
+                                .low = low[1] - (stands[0] ? 0.06 * size : edge),
+                                .high = high[1] + (stands[1] ? 0.06 * size : edge)};
     panel->note = gm_lane_failure(picture, lane);
     const bool coloured = flows->show <= GM_SHOW_PRESSURE || flows->show == GM_SHOW_TEMPERATURE,
                over = coloured && !is_signed(flows->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
     /* colours of fine meshes are smooth already, and four times the triangles cost three times the time */
     const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
-    const struct sheet sheet = sheet_of(picture, complex, gm_run_state(lane->run), plain ? NULL : field);
+    const struct sheet sheet = sheet_of(&plane, gm_run_state(lane->run), plain ? NULL : field);
+    const enum gm_role role = over ? GM_OVER : GM_INK;
     if (field) {
         gm_mark_mesh(picture, panel, is_signed(flows->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, range[0],
                      range[1], plain ? complex->point : sheet.points, plain ? field : sheet.field,
@@ -479,15 +391,18 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
         panel->colour_bar_label = look->names[flows->show];
     }
     if (flows->grid) {
-        draw_grid(picture, panel, complex, over);
+        gm_form_draw_grid(&plane,
+                          (struct gm_style){over ? GM_OVER : GM_SECONDARY, over ? 0.25 : 0.8, 0.8, GM_SOLID},
+                          false);
     }
     if (flows->streamlines) {
         draw_streamlines(picture, panel, lane, &sheet, look);
     }
     if (flows->arrows) {
-        draw_arrows(picture, panel, lane, over, look->speed_high);
+        draw_arrows(&plane, (struct gm_style){role, 0.9, 1.3, GM_SOLID}, gm_run_state(lane->run),
+                    look->speed_high);
     }
-    draw_tracers(picture, panel, lane, over, size);
+    draw_tracers(picture, panel, lane, role, size);
     draw_walls(picture, panel, flow);
     if (alone) {
         name_openings(picture, panel, flow, look->sides, size);

@@ -51,7 +51,10 @@ static const struct gm_flow *flow_of(const struct gm_view *view)
     return gm_flow_of(view->problem);
 }
 
-static double measured(const struct gm_view *view);
+static double measured(const struct gm_view *view)
+{
+    return gm_room_subject_of(view)->row->measure(flow_of(view), view->state);
+}
 
 static double scalar_outflow(const struct gm_view *view)
 {
@@ -233,9 +236,7 @@ static double profile_error(const struct gm_view *view)
     enum { PLACES = 50 };
     const char quantity = view->observable->key[0] == 'u' ? 'u' : 's';
     const double margin = 0.02;
-    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    const double *ends =
-        user_room->subjects[view->observable - user_room->observables].profile->options->numbers;
+    const double *ends = gm_room_subject_of(view)->profile->options->numbers;
     double sum = 0;
     for (size_t i = 0; i < PLACES; i++) {
         const double s = margin + (1 - 2 * margin) * (double)i / (PLACES - 1),
@@ -247,15 +248,12 @@ static double profile_error(const struct gm_view *view)
     return sum / PLACES;
 }
 
-static const struct gm_observable errors_along[] = {
-    GM_LOG_OBSERVABLE("u_error", profile_error, "mean error of u"),
-    GM_LOG_OBSERVABLE("theta_error", profile_error, "mean error of θ"),
-};
 #define GM_MEASURE(measure_, key, ...)                                                                       \
     .observable = GM_OBSERVABLE(key, measured, __VA_ARGS__), .measure = measure_
 
-/* Observables of flows; the last ones are observed of every room. */
-static const struct gm_room_row rows[] = {
+const struct gm_room_row gm_room_rows[GM_ROOM_KINDS] = {
+    {.observable = GM_LOG_OBSERVABLE("u_error", profile_error, "mean error of u"), .along = true},
+    {.observable = GM_LOG_OBSERVABLE("theta_error", profile_error, "mean error of θ"), .along = true},
     {.observable = GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ")},
     {.observable = GM_LOG_OBSERVABLE("psi_error", vertex_error, "relative error of ψ")},
     {.observable = GM_LOG_OBSERVABLE("theta_error", vertex_error, "relative error of θ")},
@@ -287,35 +285,3 @@ static const struct gm_room_row rows[] = {
     {.observable = GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration"), .of_scalar = "mean"},
     {GM_MEASURE(gm_flow_temperature_mean, "temperature_mean", "mean temperature"), .powers = {{0, 0, 1}}},
 };
-enum { FIRST_COMMON = 11 };
-
-static const struct gm_room_row *find_row(const char *key)
-{
-    size_t i = 0;
-    while (i < GM_COUNT(rows) && strcmp(rows[i].observable.key, key) != 0) {
-        i++;
-    }
-    return i < GM_COUNT(rows) ? &rows[i] : NULL;
-}
-
-static double measured(const struct gm_view *view)
-{
-    return find_row(view->observable->key)->measure(flow_of(view), view->state);
-}
-
-const struct gm_room_row *gm_room_common_rows(size_t *count)
-{
-    *count = GM_COUNT(rows) - FIRST_COMMON;
-    return rows + FIRST_COMMON;
-}
-
-const struct gm_observable *gm_room_observable(const char *key, bool along)
-{
-    const struct gm_room_row *row = find_row(key);
-    for (size_t i = 0; along && i < GM_COUNT(errors_along); i++) {
-        if (strcmp(errors_along[i].key, key) == 0) {
-            return &errors_along[i];
-        }
-    }
-    return row && !along ? &row->observable : NULL;
-}

@@ -200,19 +200,23 @@ static void check_tables(const struct gm_user_room *user_room)
 static void observe(struct gm_user_room *user_room, const struct gm_system_item *item)
 {
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
-    const struct gm_observable *row = gm_room_observable(item->name, along);
     const struct gm_system_item *profile =
         along ? gm_system_item_named(&user_room->room.system, GM_WORD_PROFILE, along) : NULL;
-    size_t i = 0;
+    size_t i = 0, kind = 0;
+    while (kind < GM_ROOM_KINDS && (strcmp(gm_room_rows[kind].observable.key, item->name) != 0 ||
+                                    gm_room_rows[kind].along != (along != NULL))) {
+        kind++;
+    }
     while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
         i++;
     }
     if (i == user_room->observable_count) {
-        gm_system_refuse_if(&user_room->room.system, !row || i == GM_ROOM_OBSERVED || (along && !profile),
-                            item->place,
-                            "this is nothing that is observed of a room, or of a profile that it has");
-        user_room->observables[i] = *row;
-        user_room->subjects[user_room->observable_count++].profile = profile;
+        gm_system_refuse_if(
+            &user_room->room.system, kind == GM_ROOM_KINDS || i == GM_ROOM_OBSERVED || (along && !profile),
+            item->place, "this is nothing that is observed of a room, or of a profile that it has");
+        user_room->observables[i] = gm_room_rows[kind].observable;
+        user_room->subjects[user_room->observable_count++] =
+            (struct gm_room_subject){.row = &gm_room_rows[kind], .profile = profile};
     }
     gm_written_options(&user_room->observables[i], item);
 }

@@ -54,8 +54,9 @@ struct gm_room_file {
 
 /* The subject of an observable of a room. */
 struct gm_room_subject {
-    const char *name; /* the name of a line; NULL: the number is used */
-    size_t number;    /* the number of a hole */
+    const struct gm_room_row *row; /* of an observable that is not of a line or a hole */
+    const char *name;              /* the name of a line; NULL: the number is used */
+    size_t number;                 /* the number of a hole */
     const struct gm_system_item *profile;
     int what; /* the quantity of the subject (enum local, user_room.c) */
 };
@@ -86,6 +87,13 @@ static inline const struct gm_user_room *gm_user_room_of(const void *parameters)
     return ((const struct gm_flows *)parameters)->room;
 }
 
+/* Returns the subject of the observable that a view evaluates. */
+static inline const struct gm_room_subject *gm_room_subject_of(const struct gm_view *view)
+{
+    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
+    return &user_room->subjects[view->observable - user_room->observables];
+}
+
 /* Returns the room of a lane, with its parameters. */
 static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
 {
@@ -113,11 +121,11 @@ struct gm_room_row {
     double (*measure)(const struct gm_flow *flow, const double *y); /* its value, if it is a measure */
     const char *of_scalar;                                          /* its title before the scalar's name */
     struct gm_powers powers;                                        /* of its unit */
+    bool along;                                                     /* of a profile */
 };
-/* The rows of all rooms' observables. */
-const struct gm_room_row *gm_room_common_rows(size_t *count);
-/* Returns the observable of flows with this key, or of a profile if `along`; NULL if the key is unknown. */
-const struct gm_observable *gm_room_observable(const char *key, bool along);
+/* The rows; those from GM_ROOM_COMMON on are observed of every room, the last one with heat. */
+enum { GM_ROOM_COMMON = 13, GM_ROOM_KINDS = 26 };
+extern const struct gm_room_row gm_room_rows[GM_ROOM_KINDS];
 /* Returns the exact value at a point; NAN if it is not known. */
 double gm_room_exact(const struct gm_view *view, enum gm_room_key key, const double at[2]);
 

@@ -156,8 +156,7 @@ static size_t find_line(const struct gm_room *room, const char *name, bool probe
 
 static double observe_local(const struct gm_view *view)
 {
-    const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    const struct gm_room_subject *subject = &user_room->subjects[view->observable - user_room->observables];
+    const struct gm_room_subject *subject = gm_room_subject_of(view);
     const struct gm_room *room = gm_room_of(view->problem);
     const struct gm_flow *flow = gm_flow_of(view->problem);
     const bool stepped = view->run && view->run->steps > 0,
@@ -562,17 +561,17 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
 /* Adds the common observables of all rooms from files, with a unit, or with the name of the scalar. */
 static void observe_common(struct gm_user_room *user_room, bool heat)
 {
-    size_t count;
-    const struct gm_room_row *rows = gm_room_common_rows(&count);
     const char *scalar = user_room->room.system.texts[GM_WORD_SCALAR];
     char unit[GM_ROOM_UNIT + 8];
-    for (size_t i = 0; i + !heat < count; i++) { /* the last is of heat */
-        struct gm_observable *observable = &user_room->observables[user_room->observable_count++];
-        *observable = rows[i].observable;
-        observable->title = rows[i].of_scalar && scalar
-                                ? gm_arena_print(user_room->arena, "%s %s", rows[i].of_scalar, scalar)
+    for (const struct gm_room_row *row = gm_room_rows + GM_ROOM_COMMON;
+         row + !heat < gm_room_rows + GM_ROOM_KINDS; row++) {
+        struct gm_observable *observable = &user_room->observables[user_room->observable_count];
+        user_room->subjects[user_room->observable_count++].row = row;
+        *observable = row->observable;
+        observable->title = row->of_scalar && scalar
+                                ? gm_arena_print(user_room->arena, "%s %s", row->of_scalar, scalar)
                                 : gm_arena_print(user_room->arena, "%s%s", observable->title,
-                                                 gm_room_beside_unit(user_room, rows[i].powers, unit));
+                                                 gm_room_beside_unit(user_room, row->powers, unit));
     }
 }
 

@@ -49,12 +49,26 @@ struct gm_form_sheet {
     size_t *triangle; /* numbers of triangles */
     double *corners;  /* 9 a triangle, in space */
     double *places;   /* 6 a triangle: its corners on the panel */
+    size_t points;    /* places of vertices, of which a torus has images */
+    int *point;       /* 3 a triangle: their numbers */
     double *light;    /* 3 a triangle, from 0 to 1; NULL in the plane */
     bool *hidden;     /* another triangle is before its middle */
 };
-/* Sets the panel's axes. False when out of memory. */
-bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
+/* Sets the panel's axes. */
+void gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
                         const struct gm_camera *camera, double t, struct gm_form_sheet *sheet);
+/* Values at vertices, on triangles that share their points, without hidden ones. */
+struct gm_form_surface {
+    double *points, *values; /* 2 and 1 a point */
+    int *triangles;          /* 3 points each */
+    size_t count, triangle_count;
+};
+/* Makes it of the values at the corners of the complex' triangles, 3 each. */
+struct gm_form_surface gm_form_surface_of(const struct gm_form_sheet *sheet, const double *values);
+/* Draws arrows of vectors, 3 numbers a triangle of the complex, of which one of that length is as long as their
+   distance: not more than fit. */
+void gm_form_draw_arrows(const struct gm_form_sheet *sheet, struct gm_style style, const double *vectors,
+                         double length);
 /* Draws edges; with `outline` those with a triangle of the sheet on one side alone. */
 void gm_form_draw_grid(const struct gm_form_sheet *sheet, struct gm_style style, bool outline);
 /* Draws dual edges, and dots at dual vertices. */

@@ -125,9 +125,6 @@ static void draw_kind(const struct gm_form_sheet *sheet, struct kind kind)
     const struct gm_panel *panel = sheet->panel;
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
     bool *drawn = gm_picture_memory(sheet->picture, count * sizeof *drawn);
-    if (!drawn) {
-        return;
-    }
     memset(drawn, 0, count * sizeof *drawn);
     kind.size = fmin(0.045 * fmax(width, height), 0.3 * complex->mean_edge);
     for (size_t i = 0; i < 3 * sheet->count; i++) {

@@ -43,16 +43,13 @@ struct painted {
 };
 
 /* Sizes at vertices of the mean vectors around them, at the corners of triangles. */
-static bool paint_sizes(struct gm_picture *picture, const struct gm_form_space *space,
+static void paint_sizes(struct gm_picture *picture, const struct gm_form_space *space,
                         struct painted *painted)
 {
     const struct gm_complex *complex = space->complex;
     double *sum = gm_picture_memory(picture, 4 * complex->vertices * sizeof *sum);
     double *scratch = gm_picture_memory(picture, complex->edges * sizeof *scratch);
     painted->vector = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->vector);
-    if (!sum || !scratch || !painted->vector) {
-        return false;
-    }
     gm_form_vectors(space, painted->type.dual, painted->form, scratch, painted->vector);
     memset(sum, 0, 4 * complex->vertices * sizeof *sum);
     for (size_t t = 0; t < complex->triangles; t++) {
@@ -66,106 +63,45 @@ static bool paint_sizes(struct gm_picture *picture, const struct gm_form_space *
         const double *s = sum + 4 * (size_t)complex->triangle[i];
         painted->value[i] = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / s[3];
     }
-    return true;
 }
 
-/* Finds the values of the form that a view shows. False when out of memory. */
-static bool paint(struct gm_picture *picture, const struct gm_view *view, struct painted *painted)
+/* The values of the form that a view shows. */
+static struct painted paint(struct gm_picture *picture, const struct gm_view *view)
 {
     const struct gm_form_space *space = gm_form_space_of(view->problem);
     const struct gm_complex *complex = space->complex;
-    *painted = (struct painted){
-        .value = gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted->value)};
     const size_t number = shown_number(view->parameters);
-    painted->type = gm_form_scene_of(view->parameters)->model.named[number].type;
-    painted->form = gm_form_numbers(view->problem, view->state, view->t, number);
-    const struct gm_form_type type = painted->type;
-    if (!painted->value || type.degree == 1) {
-        return painted->value && paint_sizes(picture, space, painted);
+    const struct gm_form_type type = gm_form_scene_of(view->parameters)->model.named[number].type;
+    struct painted painted = {.type = type,
+                              .form = gm_form_numbers(view->problem, view->state, view->t, number),
+                              .value =
+                                  gm_picture_memory(picture, 3 * complex->triangles * sizeof *painted.value)};
+    if (type.degree == 1) {
+        paint_sizes(picture, space, &painted);
+        return painted;
     }
     const bool at_vertex = (type.degree == 0) != type.dual;
     for (size_t i = 0; i < 3 * complex->triangles; i++) {
         const size_t at = at_vertex ? (size_t)complex->triangle[i] : i / 3;
         const double cell = type.degree == 0 ? 1 : at_vertex ? complex->star0[at] : complex->area[at];
-        painted->value[i] = painted->form[at] / cell;
+        painted.value[i] = painted.form[at] / cell;
     }
-    return true;
+    return painted;
 }
 
 /* ---- marks over the colours ---- */
-
-/* Draws arrows, not more than fit: in each cell of a grid that of the triangle nearest to its middle. */
-static void draw_arrows(const struct gm_form_sheet *sheet, const double *vectors, double largest)
-{
-    enum { ACROSS = 26 };
-    const struct gm_panel *panel = sheet->panel;
-    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
-    const double cell = fmax(fmax(width, height) / ACROSS, 0.8 * sheet->complex->mean_edge);
-    const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
-    double *nearest = gm_picture_memory(sheet->picture, columns * rows * sizeof *nearest);
-    double *lines = gm_picture_memory(sheet->picture, 14 * columns * rows * sizeof *lines);
-    if (!nearest || !lines) {
-        return;
-    }
-    for (size_t i = 0; i < columns * rows; i++) {
-        nearest[i] = INFINITY;
-    }
-    for (size_t i = 0; i < sheet->count; i++) {
-        const double *p = sheet->places + 6 * i, *v = vectors + 3 * sheet->triangle[i];
-        const double x = (p[0] + p[2] + p[4]) / 3, y = (p[1] + p[3] + p[5]) / 3;
-        const double column = floor((x - panel->x.low) / cell), row = floor((y - panel->y.low) / cell);
-        if (sheet->hidden[i] ||
-            !(column >= 0 && row >= 0 && column < (double)columns && row < (double)rows)) {
-            continue;
-        }
-        const size_t place = (size_t)row * columns + (size_t)column;
-        const double away =
-            gm_hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
-        if (away < nearest[place]) {
-            double d[2] = {v[0], v[1]};
-            if (!sheet->flat) {
-                gm_space_place(&sheet->sight, v, d);
-            }
-            const double arrow[2] = {0.9 * cell * d[0] / largest, 0.9 * cell * d[1] / largest};
-            gm_arrow(x, y, arrow, lines + 14 * place);
-            nearest[place] = away;
-        }
-    }
-    for (size_t i = 0; i < 14 * columns * rows; i++) {
-        lines[i] = isfinite(nearest[i / 14]) ? lines[i] : NAN;
-    }
-    gm_mark_line(sheet->picture, sheet->panel, (struct gm_style){GM_OVER, 0.95, 1.3, GM_SOLID}, lines,
-                 7 * columns * rows, false);
-}
 
 /* Draws level lines of what is linear between vertices. */
 static void draw_levels(const struct gm_form_sheet *sheet, const double *values, const double range[2],
                         struct gm_style style)
 {
-    const struct gm_complex *complex = sheet->complex;
-    const bool joined = !(complex->period[0] > 0); /* across the sides of a torus there is a jump of place */
-    const size_t count = joined ? complex->vertices : 3 * sheet->count;
-    double *points = gm_picture_memory(sheet->picture, 2 * count * sizeof *points), levels[LEVELS];
-    double *heights = gm_picture_memory(sheet->picture, count * sizeof *heights);
-    int *triangles = gm_picture_memory(sheet->picture, 3 * sheet->count * sizeof *triangles);
-    size_t kept = 0;
-    if (!points || !heights || !triangles) {
-        return;
-    }
-    for (size_t i = 0; i < 3 * sheet->count; i++) {
-        const size_t corner = 3 * sheet->triangle[i / 3] + i % 3,
-                     at = joined ? (size_t)complex->triangle[corner] : i;
-        if (!sheet->hidden[i / 3]) {
-            memcpy(points + 2 * at, sheet->places + 2 * i, 2 * sizeof *points);
-            heights[at] = values[corner];
-            triangles[kept++] = (int)at;
-        }
-    }
+    const struct gm_form_surface surface = gm_form_surface_of(sheet, values);
+    double levels[LEVELS];
     for (size_t i = 0; i < LEVELS; i++) {
         levels[i] = range[0] + ((double)i + 0.5) / LEVELS * (range[1] - range[0]);
     }
-    gm_mark_level_lines(sheet->picture, sheet->panel, style, points, heights, count, triangles, kept / 3,
-                        levels, LEVELS);
+    gm_mark_level_lines(sheet->picture, sheet->panel, style, surface.points, surface.values, surface.count,
+                        surface.triangles, surface.triangle_count, levels, LEVELS);
 }
 
 /* Draws the colours of a form. */
@@ -174,16 +110,14 @@ static void draw_colours(const struct gm_form_sheet *sheet, const double *corner
     const size_t count = sheet->count;
     double *values = gm_picture_memory(sheet->picture, 3 * count * sizeof *values);
     int *triangles = gm_picture_memory(sheet->picture, 3 * count * sizeof *triangles);
-    for (size_t i = 0; i < 3 * count && values && triangles; i++) {
+    for (size_t i = 0; i < 3 * count; i++) {
         values[i] = corners[3 * sheet->triangle[i / 3] + i % 3];
         triangles[i] = (int)i;
     }
-    if (values && triangles) {
-        gm_mark_mesh(sheet->picture, sheet->panel,
-                     range[0] < 0 && range[1] > 0 ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, range[0], range[1],
-                     sheet->places, values, 3 * count, triangles, count)
-            ->light = sheet->light;
-    }
+    gm_mark_mesh(sheet->picture, sheet->panel,
+                 range[0] < 0 && range[1] > 0 ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, range[0], range[1],
+                 sheet->places, values, 3 * count, triangles, count)
+        ->light = sheet->light;
 }
 
 /* Draws the numbers of a lane's form; of the only lane's 0-form also those of d and d d, each in its panel. */
@@ -200,10 +134,7 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
         if (!first) {
             panel = gm_panel_add(picture, GM_PLACE_STATE, "");
         }
-        if (!gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t - lane->t0,
-                                &sheet)) {
-            return;
-        }
+        gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t - lane->t0, &sheet);
         gm_form_draw_numbers(&sheet, type, form);
         if (!alone) {
             return;
@@ -213,7 +144,7 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
         const bool more = !painted->type.dual && painted->type.degree == 0 && type.degree < 2;
         const struct gm_matrix *d = &space->matrix[type.degree == 0 ? GM_MATRIX_D0 : GM_MATRIX_D1];
         double *next = more ? gm_picture_memory(picture, space->complex->edges * sizeof *next) : NULL;
-        if (next) { /* there are fewer triangles than edges */
+        if (more) { /* there are fewer triangles than edges */
             gm_matrix_apply(d, form, next);
         }
         form = next;
@@ -230,17 +161,12 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     const struct gm_complex *complex = gm_form_space_of(view.problem)->complex;
     const bool fine = gm_form_is_fine(complex);
     struct gm_form_sheet sheet;
-    struct painted painted;
-    if (!paint(picture, &view, &painted)) {
-        return;
-    }
+    const struct painted painted = paint(picture, &view);
     if (gm_form_shows_numbers(self) && !fine) {
         draw_numbers(picture, panel, lane, &painted, alone);
         return;
     }
-    if (!gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t - lane->t0, &sheet)) {
-        return;
-    }
+    gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t - lane->t0, &sheet);
     if (gm_form_shows_names(self) && !fine) {
         (self->dual ? gm_form_draw_duals : gm_form_draw_names)(&sheet);
         return;
@@ -259,7 +185,8 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         draw_levels(&sheet, painted.value, range, style);
     }
     if (painted.vector) {
-        draw_arrows(&sheet, painted.vector, range[1]);
+        gm_form_draw_arrows(&sheet, (struct gm_style){GM_OVER, 0.95, 1.3, GM_SOLID}, painted.vector,
+                            range[1]);
     }
     const char *name = gm_form_scene_of(self)->shows[shown_number(self)];
     panel->colour_bar = true;
@@ -275,13 +202,10 @@ static void find_range(struct gm_picture *picture, const struct gm_lane *const *
     range[1] = -INFINITY;
     for (size_t i = 0; i < 2 * count; i++) {
         struct gm_view view = gm_lane_view(lanes[i / 2]);
-        struct painted painted;
         view.state = i % 2 ? view.state : view.start;
         view.t = i % 2 ? view.t : view.t0;
         const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
-        if (!paint(picture, &view, &painted)) {
-            continue;
-        }
+        const struct painted painted = paint(picture, &view);
         for (size_t k = 0; k < corners; k++) { /* NaN fails both */
             range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
             range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];

@@ -9,6 +9,7 @@
 
 #include "core/functions/functions.h"
 #include "core/linear/vectors.h"
+#include "scenes/common/graph.h"
 #include "scenes/form/form.h"
 
 /* Sorts triangles by classes of depth, the farthest first; one class is 1/16384 of the whole depth. */
@@ -69,9 +70,6 @@ static void find_hidden(const struct gm_form_sheet *sheet)
     double *depth = gm_picture_memory(sheet->picture, 3 * sheet->count * sizeof *depth), place[2];
     const double scale[2] = {CELLS / (panel->x.high - panel->x.low), CELLS / (panel->y.high - panel->y.low)};
     const double origin[2] = {panel->x.low, panel->y.low};
-    if (!nearest || !depth) {
-        return;
-    }
     for (size_t i = 0; i < (size_t)CELLS * CELLS; i++) {
         nearest[i] = -INFINITY;
     }
@@ -109,6 +107,22 @@ static void find_hidden(const struct gm_form_sheet *sheet)
     }
 }
 
+/* The numbers of the corners of the last triangle's places: of a vertex, or of its image on a torus. */
+static void number_images(struct gm_form_sheet *sheet, size_t triangle)
+{
+    const struct gm_complex *complex = sheet->complex;
+    for (size_t k = 0; k < 3; k++) {
+        const int v = complex->triangle[3 * triangle + k];
+        int image = 0;
+        for (size_t c = 2; c-- > 0 && complex->period[0] > 0;) {
+            const double away = sheet->places[6 * sheet->count + 2 * k + c] -
+                                complex->point[complex->coordinates * (size_t)v + c];
+            image = 3 * image + 1 + (int)round(away / complex->period[c]);
+        }
+        sheet->point[3 * sheet->count + k] = v + image * (int)complex->vertices;
+    }
+}
+
 /* Adds the images of a triangle that reach into the periods of a torus, or the triangle. */
 static void add_flat(struct gm_form_sheet *sheet, size_t triangle)
 {
@@ -126,6 +140,7 @@ static void add_flat(struct gm_form_sheet *sheet, size_t triangle)
             sheet->places[6 * sheet->count + k] = p[3 * (k / 2) + k % 2] + shift[k % 2];
         }
         if (within) {
+            number_images(sheet, triangle);
             sheet->triangle[sheet->count++] = triangle;
         }
     }
@@ -141,9 +156,6 @@ static void place_in_space(struct gm_form_sheet *sheet, const struct gm_camera *
     size_t *order = gm_picture_memory(picture, complex->triangles * sizeof *order);
     double *normals = gm_picture_memory(picture, 3 * complex->vertices * sizeof *normals), place[6], p[9];
     sheet->light = gm_picture_memory(picture, 3 * complex->triangles * sizeof *sheet->light);
-    if (!depths || !order || !normals || !sheet->light) {
-        return;
-    }
     /* the scale is the same for all azimuths */
     double across = 0, along = 0, centre[3], middle[2], range[2] = {INFINITY, -INFINITY};
     for (size_t c = 0; c < 3; c++) {
@@ -182,6 +194,7 @@ static void place_in_space(struct gm_form_sheet *sheet, const struct gm_camera *
             gm_space_place(sight, sheet->corners + 9 * i + 3 * k, sheet->places + 6 * i + 2 * k);
         }
         for (size_t k = 0; k < 3; k++) {
+            sheet->point[3 * i + k] = complex->triangle[3 * t + k];
             sheet->light[3 * i + k] = light_on(sight, normals + 3 * (size_t)complex->triangle[3 * t + k],
                                                facing(sheet->places + 6 * i) > 0);
         }
@@ -190,7 +203,7 @@ static void place_in_space(struct gm_form_sheet *sheet, const struct gm_camera *
     find_hidden(sheet);
 }
 
-bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
+void gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
                         const struct gm_camera *camera, double t, struct gm_form_sheet *sheet)
 {
     const size_t most = (complex->period[0] > 0 ? 4 : 1) * complex->triangles;
@@ -202,10 +215,9 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
         .triangle = gm_picture_memory(picture, most * sizeof *sheet->triangle),
         .corners = gm_picture_memory(picture, 9 * most * sizeof *sheet->corners),
         .places = gm_picture_memory(picture, 6 * most * sizeof *sheet->places),
+        .points = (complex->period[0] > 0 ? 9 : 1) * complex->vertices,
+        .point = gm_picture_memory(picture, 3 * most * sizeof *sheet->point),
         .hidden = gm_picture_memory(picture, most * sizeof *sheet->hidden)};
-    if (!sheet->triangle || !sheet->corners || !sheet->places || !sheet->hidden) {
-        return false;
-    }
     memset(sheet->hidden, 0, most * sizeof *sheet->hidden);
     struct gm_space *sight = &sheet->sight;
     for (size_t v = 0; v < complex->vertices; v++) {
@@ -220,7 +232,7 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
     if (!sheet->flat) {
         gm_space_turn(sight, camera, t);
         place_in_space(sheet, camera);
-        return sheet->light != NULL;
+        return;
     }
     for (size_t c = 0; c < 2 && complex->period[0] > 0; c++) {
         sight->low[c] = 0;
@@ -232,7 +244,25 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
     for (size_t i = 0; i < complex->triangles; i++) {
         add_flat(sheet, i);
     }
-    return true;
+}
+
+struct gm_form_surface gm_form_surface_of(const struct gm_form_sheet *sheet, const double *values)
+{
+    struct gm_form_surface surface = {
+        .points = gm_picture_memory(sheet->picture, 2 * sheet->points * sizeof *surface.points),
+        .values = gm_picture_memory(sheet->picture, sheet->points * sizeof *surface.values),
+        .triangles = gm_picture_memory(sheet->picture, 3 * sheet->count * sizeof *surface.triangles),
+        .count = sheet->points};
+    for (size_t i = 0; i < sheet->count; i++) {
+        for (size_t k = 3 * i; k < 3 * i + 3 && !sheet->hidden[i]; k++) {
+            const int at = sheet->point[k];
+            memcpy(surface.points + 2 * at, sheet->places + 2 * k, 2 * sizeof *surface.points);
+            surface.values[at] = values[3 * sheet->triangle[i] + k % 3];
+            surface.triangles[3 * surface.triangle_count + k % 3] = at;
+        }
+        surface.triangle_count += !sheet->hidden[i];
+    }
+    return surface;
 }
 
 /* ---- lines on the sheet ---- */
@@ -240,28 +270,69 @@ bool gm_form_sheet_make(struct gm_picture *picture, struct gm_panel *panel, cons
 void gm_form_draw_grid(const struct gm_form_sheet *sheet, struct gm_style style, bool outline)
 {
     const struct gm_complex *complex = sheet->complex;
+    const bool torus =
+        complex->period[0] > 0; /* its images of an edge are drawn by the triangle on its left */
     double *lines = gm_picture_memory(sheet->picture, 18 * sheet->count * sizeof *lines);
     unsigned char *sides = gm_picture_memory(sheet->picture, complex->edges);
     size_t count = 0;
-    if (!lines || !sides) {
-        return;
-    }
-    memset(sides, 0, complex->edges);
-    for (size_t i = 0; i < 3 * sheet->count; i++) { /* on a torus its images count */
-        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
-        sides[e] = (unsigned char)(complex->period[0] > 0 ? 2 : sides[e] + 1);
+    memset(sides, torus ? 2 : 0, complex->edges);
+    for (size_t i = 0; i < 3 * sheet->count && !torus; i++) {
+        sides[complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3]]++;
     }
     for (size_t i = 0; i < 3 * sheet->count; i++) {
-        const size_t e = (size_t)complex->triangle_edge[3 * sheet->triangle[i / 3] + i % 3];
+        const size_t corner = 3 * sheet->triangle[i / 3] + i % 3, e = (size_t)complex->triangle_edge[corner];
         const double *p = sheet->places + 6 * (i / 3), *from = p + 2 * (i % 3), *to = p + 2 * ((i + 1) % 3);
-        if (!sheet->hidden[i / 3] && (outline ? sides[e] == 1 : sides[e] > 0)) {
-            sides[e] = complex->period[0] > 0 || outline ? sides[e] : 0; /* once */
+        if (!sheet->hidden[i / 3] && (outline ? sides[e] == 1
+                                      : torus ? complex->triangle_sign[corner] > 0
+                                              : sides[e] > 0)) {
+            sides[e] = outline ? sides[e] : 0; /* once */
             memcpy(lines + 2 * count, (const double[]){from[0], from[1], to[0], to[1], NAN, NAN},
                    6 * sizeof *lines);
             count += 3;
         }
     }
     gm_mark_line(sheet->picture, sheet->panel, style, lines, count, false);
+}
+
+void gm_form_draw_arrows(const struct gm_form_sheet *sheet, struct gm_style style, const double *vectors,
+                         double length)
+{
+    enum { ACROSS = 26 };
+    const struct gm_panel *panel = sheet->panel;
+    const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
+    const double cell = fmax(fmax(width, height) / ACROSS, 0.8 * sheet->complex->mean_edge);
+    const size_t columns = (size_t)(width / cell) + 1, rows = (size_t)(height / cell) + 1;
+    double *nearest = gm_picture_memory(sheet->picture, columns * rows * sizeof *nearest);
+    double *lines = gm_picture_memory(sheet->picture, 14 * columns * rows * sizeof *lines);
+    for (size_t i = 0; i < columns * rows; i++) {
+        nearest[i] = INFINITY;
+    }
+    /* in each cell of a grid that of the triangle nearest to its middle */
+    for (size_t i = 0; i < sheet->count; i++) {
+        const double *p = sheet->places + 6 * i, *v = vectors + 3 * sheet->triangle[i];
+        const double x = (p[0] + p[2] + p[4]) / 3, y = (p[1] + p[3] + p[5]) / 3;
+        const double column = floor((x - panel->x.low) / cell), row = floor((y - panel->y.low) / cell);
+        if (sheet->hidden[i] ||
+            !(column >= 0 && row >= 0 && column < (double)columns && row < (double)rows)) {
+            continue;
+        }
+        const size_t place = (size_t)row * columns + (size_t)column;
+        const double away =
+            gm_hypot((x - panel->x.low) / cell - column - 0.5, (y - panel->y.low) / cell - row - 0.5);
+        if (away < nearest[place]) {
+            double d[2] = {v[0], v[1]};
+            if (!sheet->flat) {
+                gm_space_place(&sheet->sight, v, d);
+            }
+            const double arrow[2] = {0.9 * cell * d[0] / length, 0.9 * cell * d[1] / length};
+            gm_arrow(x, y, arrow, lines + 14 * place);
+            nearest[place] = away;
+        }
+    }
+    for (size_t i = 0; i < 14 * columns * rows; i++) {
+        lines[i] = isfinite(nearest[i / 14]) ? lines[i] : NAN;
+    }
+    gm_mark_line(sheet->picture, sheet->panel, style, lines, 7 * columns * rows, false);
 }
 
 void gm_form_dual_place(const struct gm_form_sheet *sheet, size_t i, double place[2])
@@ -277,9 +348,6 @@ void gm_form_draw_dual(const struct gm_form_sheet *sheet, struct gm_style style)
     double *lines = gm_picture_memory(sheet->picture, 18 * sheet->count * sizeof *lines);
     double *dots = gm_picture_memory(sheet->picture, 2 * sheet->count * sizeof *dots);
     size_t count = 0, met = 0;
-    if (!lines || !dots) {
-        return;
-    }
     for (size_t i = 0; i < sheet->count; i++) {
         const double *p = sheet->places + 6 * i;
         double *dot = dots + 2 * met;

@@ -152,34 +152,32 @@ static double residual(struct gm_flow_solver *solver, const double *omega)
     const struct gm_unknowns *unknowns = &solver->unknowns;
     double *product = solver->field, sum = 0, size = 0;
     gm_transport_apply(&solver->transport, omega, product);
-    for (size_t i = 0; i < unknowns->count + solver->soft; i++) {
-        const bool soft = i >= unknowns->count;
-        const int *vertex =
-            soft ? solver->soft_vertex + (i - unknowns->count) : unknowns->vertex + unknowns->start[i];
-        const int vertices = soft ? 1 : unknowns->start[i + 1] - unknowns->start[i];
+    for (size_t i = 0; i < unknowns->flow; i++) {
         solver->b[i] = 0;
-        for (int k = 0; k < vertices; k++) {
-            solver->b[i] += solver->rate[vertex[k]] - product[vertex[k]];
-            size += solver->rate[vertex[k]] * solver->rate[vertex[k]];
+        for (int k = unknowns->start[i]; k < unknowns->start[i + 1]; k++) {
+            const int v = unknowns->vertex[k];
+            solver->b[i] += solver->rate[v] - product[v];
+            size += solver->rate[v] * solver->rate[v];
         }
         sum += solver->b[i] * solver->b[i];
     }
     return sqrt(fmax(sum, size));
 }
 
-/* Adds solver->x to psi and to omega of soft vertices, and makes omega of the others. */
-static void correct(const struct gm_flow_solver *solver, double *y)
+/* Adds solver->x to psi, to omega of soft vertices and, if it is unknown, to the temperature, and makes omega of the
+   others. */
+static void correct(const struct gm_flow_solver *solver, bool warm, double *y)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_unknowns *unknowns = &solver->unknowns;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
-    for (size_t i = 0; i < unknowns->count; i++) {
+    for (size_t i = 0; i < (warm ? unknowns->all : unknowns->flow); i++) {
+        double *values = i < unknowns->count  ? y
+                         : i < unknowns->flow ? omega
+                                              : block(flow, y, GM_FLOW_TEMPERATURE);
         for (int k = unknowns->start[i]; k < unknowns->start[i + 1]; k++) {
-            y[unknowns->vertex[k]] += solver->x[i];
+            values[unknowns->vertex[k]] += solver->x[i];
         }
-    }
-    for (size_t i = 0; i < solver->soft; i++) {
-        omega[solver->soft_vertex[i]] += solver->x[unknowns->count + i];
     }
     gm_flow_vorticity(flow, y, omega);
 }
@@ -204,7 +202,7 @@ static bool advance_stream(struct gm_flow_solver *solver, double share, double d
     if (!gm_flow_solver_correct(solver, size, &progress->iterations)) {
         return false;
     }
-    correct(solver, y);
+    correct(solver, false, y);
     for (size_t v = 0; v < complex->vertices; v++) {
         used[v] = share * omega[v] + (1 - share) * used[v];
     }
@@ -408,10 +406,7 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
         if (!gm_flow_solver_newton(solver, omega, temperature)) {
             return GM_NO_CONVERGENCE;
         }
-        correct(solver, y);
-        for (size_t i = 0; i < solver->warm; i++) {
-            temperature[solver->warm_vertex[i]] += solver->x[solver->unknowns.count + solver->soft + i];
-        }
+        correct(solver, flow->heat, y);
     }
     double change = 0, size = 0;
     for (size_t v = 0; v < n; v++) {
