@@ -627,6 +627,7 @@ static void read_equation(struct gm_reading *reading, const struct gm_read_line 
     struct gm_form_declared *form = &system->forms[entry->number];
     gm_system_refuse_if(system, form->left != GM_NO_NODE, name.begin, "%s has two equations", entry->name);
     gm_system_refuse_if(system, equals == rest.end, rest.begin, "= was expected");
+    form->equation = rest.begin;
     form->left = gm_reading_formula(reading, (struct gm_span){rest.begin, equals});
     form->right = gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end});
 }

@@ -77,6 +77,7 @@ struct gm_form_declared {
     size_t place;
     gm_node_id start, exact;
     gm_node_id left, right; /* equation of an unknown */
+    size_t equation;        /* its place in the text */
 };
 
 /* A variable of the graph. The numbers of variables: n components; t; parameters; for a Lagrangian n / 2

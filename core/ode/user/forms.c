@@ -171,7 +171,7 @@ static void compile_forms(const struct compiling *compiling)
             exact[exacts++] = (struct gm_form_root){form->exact, type, true, false, form->place};
         }
         if (form->unknown) {
-            system->graph.place = system->graph.places[form->left];
+            system->graph.place = (uint32_t)form->equation;
             const gm_node_id node =
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
@@ -197,7 +197,7 @@ static void compile_forms(const struct compiling *compiling)
         const int places = type.dual ? 2 - type.degree : type.degree,
                   rows = found.dual ? 2 - found.degree : found.degree;
         if (found.degree < 0 || places != rows) {
-            gm_fail(compiling->fault, system->graph.places[system->forms[i].left],
+            gm_fail(compiling->fault, system->forms[i].equation,
                     "the equation of %s, which is %s, is of %s: it has not one number for each of %s",
                     system->variables[i].name, gm_form_type_text(type), gm_form_type_text(found),
                     system->variables[i].name);
@@ -283,6 +283,10 @@ static void name_form(const struct compiling *compiling, struct gm_form_named fo
                                   "a form cannot be called %s: pictures or files of forms have that word",
                                   form.name));
     }
+    gm_arena_need(model->system->arena,
+                  model->named_count < GM_MOST_NAMED_FORMS ||
+                      gm_fail(compiling->fault, place, "a system has at most %d forms, lets that are forms included",
+                              GM_MOST_NAMED_FORMS));
     model->named[model->named_count++] = form;
 }
 

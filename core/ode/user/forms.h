@@ -6,6 +6,7 @@
 
 #include "core/form/program.h"
 #include "core/ode/ode.h"
+#include "core/quantity.h"
 
 /* A form that files and pictures have by its name. */
 struct gm_form_named {
@@ -59,7 +60,8 @@ const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem);
 const struct gm_form_model *gm_form_model_of(const struct gm_problem *problem);
 /* The numbers of a named form in a state, which for an unknown are solved for; valid until the next call. */
 const double *gm_form_numbers(const struct gm_problem *problem, const double *y, double t, size_t named);
-/* The arrays of files (gm_quantities): the mesh, and named forms. */
+/* The arrays of files (gm_quantities): the mesh, 4, and of each named form one for tables and one for pictures. */
+enum { GM_MOST_NAMED_FORMS = (GM_QUANTITIES - 4) / 2 };
 size_t gm_form_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 /* The value of what is observed, a number or a form; valid until the next call. */
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
