@@ -848,7 +848,9 @@ static void read_held(struct gm_reading *reading, const struct gm_read_line *lin
         gm_reading_assignment(reading, gm_reading_between(reading, part.end, line->value.end));
     const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
     struct gm_system_item *item = gm_reading_item(reading, line, part);
+    reading->along = true;
     add_formula(reading, item, target.value);
+    reading->along = false;
     item->variable = entry->number;
     if (entry->role == GM_ENTRY_NAMED) {
         gm_item_add(reading, item, entry->node);

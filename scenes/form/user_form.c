@@ -104,7 +104,9 @@ static void add_of_form(struct gm_form_scene *scene, struct gm_form_subject subj
     const char *key = gm_arena_print(arena, "%s_%s", name, rows[subject.what].key),
                *title =
                    gm_arena_print(arena, "%s%s%s", rows[subject.what].before, name, rows[subject.what].after);
-    add(scene, (struct gm_observable)GM_LOG_OBSERVABLE(key, observe, title), subject);
+    struct gm_observable row = GM_LOG_OBSERVABLE(key, observe, title);
+    row.most = subject.what == GM_FORM_REMAINDER ? 1e-9 : 0; /* of a linear system that is solved */
+    add(scene, row, subject);
 }
 
 static void make_observables(struct gm_form_scene *scene)

@@ -19,7 +19,7 @@
 #include "core/ode/kernel/stages.h"
 #include "core/user/line.h"
 
-enum { MOST_FACTORS = 8 };
+enum { MOST_FACTORS = 8, MOST_PASSES = 4 };
 
 /* The factors of stages, 1 - h a (x) J, for one h a: by Cholesky's method if the matrix is symmetric with cells as
    weights, as that of diffusion is. */
@@ -61,6 +61,7 @@ struct own {
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
+    double **arcs;              /* for each item of the system: s at the points of its samples, or NULL */
     struct gm_matrix *around;   /* for each part of the boundary in integral(PART, a) */
     pthread_mutex_t turn;       /* one call after another */
     size_t n, half;             /* of the state, if it splits: forms of the first group are padded to it */
@@ -168,7 +169,7 @@ static void compile_forms(const struct compiling *compiling)
         const struct gm_form_declared *form = &system->forms[i];
         const struct gm_form_type type = type_of(system, i);
         if (form->exact != GM_NO_NODE) {
-            exact[exacts++] = (struct gm_form_root){form->exact, type, true, false, form->place};
+            exact[exacts++] = (struct gm_form_root){form->exact, type, true, 0, form->place};
         }
         if (form->unknown) {
             system->graph.place = (uint32_t)form->equation;
@@ -176,12 +177,12 @@ static void compile_forms(const struct compiling *compiling)
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
             residuals[model->unknown_count] =
-                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, false, form->place};
+                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, 0, form->place};
             model->unknowns[model->unknown_count++] = i;
             continue;
         }
-        starts[model->field_count] = (struct gm_form_root){form->start, type, true, false, form->place};
-        rates[model->field_count] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
+        starts[model->field_count] = (struct gm_form_root){form->start, type, true, 0, form->place};
+        rates[model->field_count] = (struct gm_form_root){system->rates[i], type, false, 0, form->place};
         model->fields[model->field_count++] = i;
     }
     compile(compiling, &model->rates, rates, model->field_count, false);
@@ -233,11 +234,25 @@ static void compile_held(const struct compiling *compiling)
             gm_arena_leave(system->arena);
         }
         model->held_item[count] = i;
-        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
+        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, i + 1, item->place};
     }
     compile(compiling, &model->held, roots, count, false);
-    limit(compiling, &model->held, roots, "a value that is held is a formula of x, y, z, t and parameters");
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_form_declared *form = &system->forms[system->items[model->held_item[k]].variable];
+        gm_arena_need(
+            system->arena,
+            !form->unknown || !(model->held.steps[model->held.roots[k]].needs & GM_NEEDS_UNKNOWNS) ||
+                gm_fail(
+                    compiling->fault, roots[k].place,
+                    "an unknown is held at formulas and fields: what other unknowns give is an equation"));
+    }
     system->timed |= is_timed(&model->held);
+}
+
+/* True if values that are held are made of forms. */
+static bool holds_forms(const struct gm_form_model *model)
+{
+    return needs_of(&model->held) & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS);
 }
 
 /* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
@@ -257,7 +272,7 @@ static void find_split(struct gm_form_model *model)
                       (!leaf && needs[step->a * system->n + f]) || (binary && needs[step->b * system->n + f]);
         }
     }
-    for (size_t split = 1; split < fields && model->unknown_count == 0; split++) {
+    for (size_t split = 1; split < fields && model->unknown_count == 0 && !holds_forms(model); split++) {
         bool splits = true;
         for (size_t i = 0; i < fields; i++) {
             for (size_t f = 0; f < fields; f++) {
@@ -285,7 +300,8 @@ static void name_form(const struct compiling *compiling, struct gm_form_named fo
     }
     gm_arena_need(model->system->arena,
                   model->named_count < GM_MOST_NAMED_FORMS ||
-                      gm_fail(compiling->fault, place, "a system has at most %d forms, lets that are forms included",
+                      gm_fail(compiling->fault, place,
+                              "a system has at most %d forms, lets that are forms included",
                               GM_MOST_NAMED_FORMS));
     model->named[model->named_count++] = form;
 }
@@ -299,15 +315,15 @@ static void compile_all(struct gm_arena *arena, void *data)
     model->observed_item = gm_arena_take(arena, system->item_count + 1, sizeof *model->observed_item);
     compile_forms(compiling);
     system->timed |= is_timed(&model->rates) || is_timed(&model->equations);
-    find_split(model);
     compile_held(compiling);
+    find_split(model);
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE || item->word == GM_WORD_LET) {
             const int degree = item->word == GM_WORD_LET ? GM_FORM_ANY : GM_FORM_NUMBER;
             model->observed_item[model->observed_count] = i;
             observed[model->observed_count++] =
-                (struct gm_form_root){item->nodes[0], {degree, false}, false, false, item->place};
+                (struct gm_form_root){item->nodes[0], {degree, false}, false, 0, item->place};
         }
     }
     compile(compiling, &model->observed, observed, model->observed_count, false);
@@ -590,29 +606,54 @@ static void solve(struct own *own, double t)
 
 /* ---- the equations of motion ---- */
 
-/* Writes the values that are held at a time, of unknowns, and in a state. */
-static void set_held(struct own *own, double t, double *y)
+/* Writes the values that are held at a time, of unknowns, and in a state unless it is NULL. Returns the largest change
+   over the largest value. */
+static double set_held(struct own *own, double t, double *y)
 {
+    double change = 0, largest = 0;
     gm_form_values_run(&own->held_values, t, own->forms);
     for (size_t k = 0; k < own->held_count; k++) {
         const struct held_number *held = &own->held_numbers[k];
-        (held->unknown ? own->given : y)[held->to] =
-            held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+        const double value = held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+        double *to = held->unknown ? own->given : y;
+        if (to) {
+            change = fmax(change, fabs(to[held->to] - value));
+            largest = fmax(largest, fabs(value));
+            to[held->to] = value;
+        }
+    }
+    return largest > 0 ? change / largest : 0;
+}
+
+/* Lets forms be those of this state. */
+static void point_at(struct own *own, double *state)
+{
+    const struct gm_user_system *system = own->model->system;
+    for (size_t i = 0; i < system->n; i++) {
+        own->forms[i] = (system->forms[i].unknown ? own->unknown : state) + own->offset[i];
     }
 }
 
-/* Lets forms be those of a state; if values that are held change, of a copy with their values now. */
+/* Lets forms be those of a state; if values that are held change, of a copy with their values now, which may be made of
+   others. */
 static void place_forms(struct own *own, const double *y, double t)
 {
     double *state = (double *)(uintptr_t)y;
     if (own->held_changes) {
         state = memcpy(own->current, y, own->n * sizeof *y);
-        set_held(own, t, state);
+        point_at(own, state);
+        const unsigned needs = needs_of(&own->model->held);
+        double change = 1;
+        for (int pass = 0; pass < MOST_PASSES && change > 0; pass++) {
+            if (needs & GM_NEEDS_UNKNOWNS) {
+                set_held(own, t, NULL);
+                solve(own, t);
+            }
+            change = set_held(own, t, state);
+            change = needs == GM_NEEDS_TIME ? 0 : change;
+        }
     }
-    for (size_t i = 0; i < own->model->system->n; i++) {
-        own->forms[i] =
-            own->model->system->forms[i].unknown ? own->unknown + own->offset[i] : state + own->offset[i];
-    }
+    point_at(own, state);
 }
 
 /* Writes the rates of fields first .. last - 1; f[0] is the rate of the state's number `base`. */
@@ -955,6 +996,58 @@ static bool solves_star(const struct gm_form_program *program)
     return solves;
 }
 
+/* s at the points of samples on a part of the boundary: the length of its edges before them, with the surface on the
+   left, from where a chain of them begins; a closed chain begins at its vertex of the lowest number. */
+static void measure_arcs(struct own *own, const bool *edges, struct gm_form_type type, double *arc)
+{
+    const struct gm_complex *complex = own->space.complex;
+    const size_t vertices = complex->vertices, count = type.degree == 1 ? 5 * complex->edges : vertices;
+    const double *points = gm_form_points_of(&own->space, own->arena, type)->point;
+    int *leaving = gm_arena_take(own->arena, 2 * vertices, sizeof *leaving), *entering = leaving + vertices;
+    for (size_t e = 0; e < complex->edges; e++) {
+        const bool back = complex->edge_triangle[2 * e] < 0;
+        if (edges[e]) {
+            leaving[complex->edge[2 * e + back]] = entering[complex->edge[2 * e + !back]] = (int)e + 1;
+        }
+    }
+    for (size_t i = 0; i < 2 * vertices; i++) { /* open chains, then closed ones */
+        const size_t begin = i % vertices;
+        double s = 0;
+        for (size_t v = begin; leaving[v] > 0 && (i >= vertices || s > 0 || entering[v] == 0);) {
+            const size_t e = (size_t)leaving[v] - 1;
+            double tail[3];
+            gm_complex_vertex(complex, v, tail);
+            for (size_t k = 5 * e; k < 5 * e + 5 && type.degree == 1; k++) {
+                arc[k] = s + gm_hypot(gm_hypot(points[k] - tail[0], points[count + k] - tail[1]),
+                                      points[2 * count + k] - tail[2]);
+            }
+            leaving[v] = 0;
+            s += complex->length[e];
+            v = (size_t)complex->edge[2 * e + ((size_t)complex->edge[2 * e] == v)];
+            if (type.degree != 1 && v != begin) {
+                arc[v] = s;
+            }
+        }
+    }
+}
+
+/* Measures s for the samples of lines `boundary:` that hold it. */
+static void make_arcs(struct own *own, struct gm_form_values *values)
+{
+    const struct gm_form_program *program = values->program;
+    bool *edges = gm_arena_take(own->arena, own->space.complex->edges, sizeof *edges);
+    values->arcs = own->arcs;
+    for (size_t i = 0; i < program->count; i++) {
+        const struct gm_form_step *step = &program->steps[i];
+        if (step->kind == GM_STEP_SAMPLE && step->number > 0 && !own->arcs[step->number - 1]) {
+            double *arc = doubles(own, gm_form_points_of(&own->space, own->arena, step->type)->count);
+            mark_part(own, "boundary", own->model->system->items[step->number - 1].name, edges);
+            measure_arcs(own, edges, step->type, arc);
+            own->arcs[step->number - 1] = arc;
+        }
+    }
+}
+
 static void hold_number(struct own *own, size_t root, size_t from, double sign)
 {
     const size_t variable = own->model->system->items[own->model->held_item[root]].variable;
@@ -977,23 +1070,29 @@ static void hold(struct own *own, const double *variables)
     bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges), given = false,
          *own_edges = gm_arena_take(own->arena, complex->edges, sizeof *own_edges);
     open_values(own, &own->held_values, &model->held, variables);
+    make_arcs(own, &own->held_values);
     for (size_t i = 0; i < model->held.root_count; i++) {
+        const struct gm_form_step *step = &model->held.steps[model->held.roots[i]];
+        const bool density = step->kind == GM_STEP_SAMPLE && step->components == 1;
         const struct gm_system_item *item = &system->items[model->held_item[i]];
         const int degree = system->forms[item->variable].degree;
         mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             if (edges[e] && degree == 1) {
                 own_edges[e] = true;
-                hold_number(own, i, e,
-                            complex->edge_triangle[2 * e] >= 0 ? 1 : -1); /* the surface is on its left */
+                hold_number(
+                    own, i, e,
+                    density && complex->edge_triangle[2 * e] < 0 ? -1 : 1); /* the surface is on its left */
             }
             for (size_t k = 0; k < 2 && edges[e] && degree != 1; k++) {
                 hold_number(own, i, (size_t)complex->edge[2 * e + k], 1);
             }
         }
     }
-    own->held_changes = is_timed(&model->held);
-    set_held(own, 0, own->start);
+    own->held_changes = needs_of(&model->held) != 0;
+    if (!holds_forms(model)) {
+        set_held(own, 0, own->start);
+    }
     for (size_t k = 0; k < own->held_count; k++) {
         const struct held_number *held = &own->held_numbers[k];
         given |= system->forms[system->items[model->held_item[held->root]].variable].degree == 1 &&
@@ -1056,6 +1155,22 @@ static void take_start(struct own *own, const double *variables)
     }
 }
 
+/* Holds values that are made of forms, at the start. With numbers for a start that are not 0 they have to be the same
+   once they are held. */
+static void hold_forms(struct own *own)
+{
+    double *state = doubles(own, own->n);
+    for (size_t i = 0; i < own->n; i++) {
+        state[i] = own->start[i] + (i % 7 + 1) / 8.0;
+    }
+    place_forms(own, state, 0);
+    solve(own, 0);
+    gm_arena_refuse_if(own->arena, set_held(own, 0, own->current) > 1e-9,
+                       "boundary: a value that is held is made of forms that it changes");
+    place_forms(own, own->start, 0);
+    memcpy(own->start, own->current, own->n * sizeof *own->start);
+}
+
 static void make(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -1102,6 +1217,7 @@ static void make(struct gm_arena *arena, void *data)
             own->cell[own->offset[model->fields[k]] + j] = type.degree == 0 ? cell[j] : 1 / cell[j];
         }
     }
+    own->arcs = gm_arena_take(arena, system->item_count + 1, sizeof *own->arcs);
     make_closings(own);
     open_values(own, &own->rates, &model->rates, variables);
     open_values(own, &own->exacts, &model->exacts, variables);
@@ -1110,18 +1226,25 @@ static void make(struct gm_arena *arena, void *data)
     take_start(own, variables);
     hold(own, variables);
     make_around(own);
-    own->rates.around = own->equations.around = own->observed.around = own->around;
-    own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
+    own->rates.around = own->equations.around = own->observed.around = own->held_values.around = own->around;
+    make_arcs(own, &own->rates);
+    make_arcs(own, &own->equations);
+    make_arcs(own, &own->observed);
+    own->rates.closings = own->equations.closings = own->observed.closings = own->held_values.closings =
+        own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
-        place_forms(own, own->start, 0);
+        point_at(own, own->start);
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own);
+    }
+    if (holds_forms(model)) {
+        hold_forms(own);
     }
     gm_arena_keep(arena, own, close_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
     own->facets.forms = true;
-    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
+    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates) && !holds_forms(model);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
         own->loops.force = force;
