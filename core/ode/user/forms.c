@@ -39,7 +39,7 @@ struct opening {
     const struct gm_form_model *model;
     struct gm_triangulation file; /* or the complex alone, of a generator */
     const double *variables;
-    enum gm_interior interior;
+    struct gm_form_choice choice;
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
 };
 
@@ -50,12 +50,21 @@ struct held_number {
     bool unknown;
 };
 
+/* A problem that is closed waits for one with the same numbers: a command opens it to see which schemes fit, and again
+   to run it. */
+struct gm_form_idle {
+    pthread_mutex_t turn;
+    struct own *own; /* or NULL */
+};
+
 struct own {
     struct gm_ode facets;
     struct gm_split split;
     struct gm_loops loops;
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
+    struct gm_form_choice choice;
+    double *variables;                    /* that it was opened with */
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
     struct gm_triangulation file;         /* the groups of its edges; empty if the mesh is not of a file */
     struct gm_form_space space;
@@ -306,6 +315,30 @@ static void name_form(const struct compiling *compiling, struct gm_form_named fo
     model->named[model->named_count++] = form;
 }
 
+/* Lets another problem wait, or none. Returns the one that waited, or NULL. */
+static struct own *exchange_idle(struct gm_form_idle *idle, struct own *own)
+{
+    pthread_mutex_lock(&idle->turn);
+    struct own *before = idle->own;
+    idle->own = own;
+    pthread_mutex_unlock(&idle->turn);
+    return before;
+}
+
+static void close_own(struct own *own)
+{
+    if (own) {
+        gm_arena_close(own->arena);
+    }
+}
+
+static void close_idle(void *data)
+{
+    struct gm_form_idle *idle = data;
+    close_own(idle->own);
+    pthread_mutex_destroy(&idle->turn);
+}
+
 static void compile_all(struct gm_arena *arena, void *data)
 {
     const struct compiling *compiling = data;
@@ -313,6 +346,9 @@ static void compile_all(struct gm_arena *arena, void *data)
     struct gm_user_system *system = model->system;
     struct gm_form_root *observed = gm_arena_take(arena, system->item_count + 1, sizeof *observed);
     model->observed_item = gm_arena_take(arena, system->item_count + 1, sizeof *model->observed_item);
+    model->idle = gm_arena_take(arena, 1, sizeof *model->idle);
+    gm_arena_need(arena, pthread_mutex_init(&model->idle->turn, NULL) == 0);
+    gm_arena_keep(arena, model->idle, close_idle);
     compile_forms(compiling);
     system->timed |= is_timed(&model->rates) || is_timed(&model->equations);
     compile_held(compiling);
@@ -1189,7 +1225,10 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, &own->file, gm_triangulation_close);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, gm_form_space_close);
-    own->space.interior = opening->interior;
+    own->space.interior = opening->choice.interior;
+    own->choice = opening->choice;
+    own->variables = doubles(own, system->variable_count);
+    memcpy(own->variables, variables, system->variable_count * sizeof *variables);
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
@@ -1266,11 +1305,29 @@ static bool decomposes(const struct gm_form_program *program)
     return found;
 }
 
+static struct gm_problem problem_of(struct own *own)
+{
+    return (struct gm_problem){.name = "forms",
+                               .kind = &gm_kind_ode,
+                               .n = own->n,
+                               .m = 1,
+                               .facets = &own->facets,
+                               .parameters = own};
+}
+
 bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
                           struct gm_form_choice choice, const double *variables, struct gm_fault *fault)
 {
     *fault = (struct gm_fault){0};
-    struct opening opening = {.model = model, .variables = variables, .interior = choice.interior};
+    struct opening opening = {.model = model, .variables = variables, .choice = choice};
+    struct own *idle = exchange_idle(model->idle, NULL);
+    if (idle && idle->choice.star == choice.star && idle->choice.interior == choice.interior &&
+        memcmp(idle->variables, variables, model->system->variable_count * sizeof *variables) == 0) {
+        idle->seen_time = NAN;
+        *problem = problem_of(idle);
+        return true;
+    }
+    close_own(idle);
     const bool opened = open_mesh(&opening, choice.star, fault);
     const bool solves =
         opened && (model->unknown_count > 0 || decomposes(&model->rates) || decomposes(&model->equations) ||
@@ -1288,19 +1345,15 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
         gm_arena_close(arena);
         return false;
     }
-    *problem = (struct gm_problem){.name = "forms",
-                                   .kind = &gm_kind_ode,
-                                   .n = opening.own->n,
-                                   .m = 1,
-                                   .facets = &opening.own->facets,
-                                   .parameters = opening.own};
+    *problem = problem_of(opening.own);
     return true;
 }
 
 void gm_form_problem_close(struct gm_problem *problem)
 {
     if (problem->parameters) {
-        gm_arena_close(own_of(problem)->arena);
+        struct own *own = own_of(problem);
+        close_own(exchange_idle(own->model->idle, own));
         problem->parameters = NULL;
     }
 }

@@ -32,6 +32,7 @@ struct gm_form_model {
         *mesh_text; /* the file of the mesh, and its bytes, which the caller keeps; NULL: generated */
     size_t mesh_size;
     struct gm_form_type *equation_types; /* of each unknown */
+    struct gm_form_idle *idle;           /* the problem that was closed last, for its next use */
     size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
 };
 
