@@ -116,10 +116,7 @@ static void require(struct compiling *compiling, bool holds, const char *rule, s
 static struct part made(struct compiling *compiling, struct gm_form_step step)
 {
     struct gm_form_program *program = compiling->program;
-    if ((program->count & (program->count - 1)) == 0) {
-        program->steps = gm_arena_resize(compiling->arena, program->steps,
-                                         program->count ? 2 * program->count : 1, sizeof *program->steps);
-    }
+    program->steps = gm_arena_grown(compiling->arena, program->steps, program->count, sizeof *program->steps);
     program->steps[program->count] = step;
     return (struct part){step.type, program->count++, compiling->now};
 }

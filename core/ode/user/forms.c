@@ -327,9 +327,7 @@ static struct own *exchange_idle(struct gm_form_idle *idle, struct own *own)
 
 static void close_own(struct own *own)
 {
-    if (own) {
-        gm_arena_close(own->arena);
-    }
+    gm_arena_close(own ? own->arena : NULL);
 }
 
 static void close_idle(void *data)
@@ -784,19 +782,16 @@ static void derive(struct gm_arena *arena, void *data)
     gm_matrix_scale(&own->rows, moves);
 }
 
-static void drop_factors(struct own *own)
+/* For arenas too. */
+static void drop_factors(void *data)
 {
+    struct own *own = data;
     for (size_t i = 0; i < MOST_FACTORS; i++) {
         gm_arena_close(own->factors[i].arena);
         own->factors[i] = (struct stage_factor){0};
     }
     gm_arena_close(own->derived);
     own->derived = NULL;
-}
-
-static void close_factors(void *own)
-{
-    drop_factors(own);
 }
 
 /* Makes `rows` at a state, unless they are those. False when out of memory. */
@@ -1021,15 +1016,19 @@ static void open_values(struct own *own, struct gm_form_values *values, const st
     gm_form_values_open(values, own->arena, program, &own->space, own->model->system, variables);
 }
 
-/* True if a program takes the star of a dual 1-form. */
+/* True if a program has a step of this kind and number. */
+static bool has_step(const struct gm_form_program *program, enum gm_form_step_kind kind, size_t number)
+{
+    size_t i = 0;
+    while (i < program->count && (program->steps[i].kind != kind || program->steps[i].number != number)) {
+        i++;
+    }
+    return i < program->count;
+}
+
 static bool solves_star(const struct gm_form_program *program)
 {
-    bool solves = false;
-    for (size_t i = 0; i < program->count; i++) {
-        solves |=
-            program->steps[i].kind == GM_STEP_MATRIX && program->steps[i].number == GM_MATRIX_DUAL_STAR1;
-    }
-    return solves;
+    return has_step(program, GM_STEP_MATRIX, GM_MATRIX_DUAL_STAR1);
 }
 
 /* s at the points of samples on a part of the boundary: the length of its edges before them, with the surface on the
@@ -1089,10 +1088,7 @@ static void hold_number(struct own *own, size_t root, size_t from, double sign)
     const size_t variable = own->model->system->items[own->model->held_item[root]].variable;
     const bool unknown = own->model->system->forms[variable].unknown;
     const size_t to = own->offset[variable] + from, count = own->held_count++;
-    if ((count & (count - 1)) == 0) {
-        own->held_numbers =
-            gm_arena_resize(own->arena, own->held_numbers, 2 * count + 1, sizeof *own->held_numbers);
-    }
+    own->held_numbers = gm_arena_grown(own->arena, own->held_numbers, count, sizeof *own->held_numbers);
     own->held_numbers[count] = (struct held_number){root, from, to, sign, unknown};
     (unknown ? own->held_unknown : own->held)[to] = true;
 }
@@ -1280,7 +1276,7 @@ static void make(struct gm_arena *arena, void *data)
     if (holds_forms(model)) {
         hold_forms(own);
     }
-    gm_arena_keep(arena, own, close_factors);
+    gm_arena_keep(arena, own, drop_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
     own->facets.forms = true;
     own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates) && !holds_forms(model);
@@ -1298,11 +1294,7 @@ static void make(struct gm_arena *arena, void *data)
 /* True if a program takes a part of a 1-form, for which equations are solved. */
 static bool decomposes(const struct gm_form_program *program)
 {
-    bool found = false;
-    for (size_t i = 0; i < program->count; i++) {
-        found |= program->steps[i].kind == GM_STEP_EXACT || program->steps[i].kind == GM_STEP_COEXACT;
-    }
-    return found;
+    return has_step(program, GM_STEP_EXACT, 0) || has_step(program, GM_STEP_COEXACT, 0);
 }
 
 static struct gm_problem problem_of(struct own *own)
