@@ -782,7 +782,7 @@ static void derive(struct gm_arena *arena, void *data)
     gm_matrix_scale(&own->rows, moves);
 }
 
-/* For arenas too. */
+/* Closes the factors of stages, and the Jacobian that they are of. */
 static void drop_factors(void *data)
 {
     struct own *own = data;
