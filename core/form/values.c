@@ -108,6 +108,11 @@ static void operate(const struct gm_form_values *values, size_t i)
             out[k] = a[p * k] * b[q * k];
         }
         break;
+    case GM_OPERATION_NEGATE:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = -a[k];
+        }
+        break;
     default:
         for (size_t k = 0; k < n; k++) {
             out[k] = gm_operation_value((enum gm_operation)step->number, a[p * k], b[q * k]);

@@ -85,8 +85,8 @@ struct own {
     double *current; /* a state with what is held now */
     double *given;   /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
-    double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
-    bool observes;
+    double seen_time;        /* of the state whose unknowns and observables are there; NaN: none */
+    bool observes, measures; /* what is observed was computed; residuals are measured */
     struct gm_matrix matrix;
     size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
     struct gm_cholesky *factor; /* NULL: `lu` */
@@ -629,7 +629,9 @@ static void solve(struct own *own, double t)
     } else {
         good = gm_lu_apply(own->lu, right, own->unknown);
     }
-    measure_residuals(own);
+    if (own->measures) {
+        measure_residuals(own);
+    }
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
@@ -1374,8 +1376,9 @@ static struct own *look(const struct gm_problem *problem, const double *y, doubl
         memcpy(own->seen, y, problem->n * sizeof *y);
         own->seen_time = t;
         place_forms(own, own->seen, t);
+        own->measures = true;
         solve(own, t);
-        own->observes = false;
+        own->observes = own->measures = false;
     }
     return own;
 }
