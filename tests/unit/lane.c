@@ -252,6 +252,24 @@ static void excess_is_told(void **unused)
     gm_lane_close(lane);
 }
 
+/* A problem of forms that was closed is the next one with its numbers; one in use is not shared. */
+static void closed_problems_return(void **unused)
+{
+    (void)unused;
+    char message[GM_MESSAGE];
+    struct gm_problem first = {0}, second = {0};
+    struct gm_lane *lane = open_lane("form-poisson level=1", NULL);
+    assert_non_null(lane);
+    assert_true(lane->scene->setup(lane->parameters, &first, message));
+    const void *was = first.parameters;
+    assert_ptr_not_equal(was, lane->problem.parameters);
+    lane->scene->close(&first);
+    assert_true(lane->scene->setup(lane->parameters, &second, message));
+    assert_ptr_equal(second.parameters, was);
+    lane->scene->close(&second);
+    gm_lane_close(lane);
+}
+
 /* Implicit Euler divides the area by 1 + h^2 in each step, explicit Euler multiplies it. */
 static void losses_are_told(void **unused)
 {
@@ -411,6 +429,7 @@ int main(void)
         cmocka_unit_test(packed_lanes_go_on),
         cmocka_unit_test(losses_are_told),
         cmocka_unit_test(excess_is_told),
+        cmocka_unit_test(closed_problems_return),
         cmocka_unit_test(refused_memory_is_no_fault_of_a_mesh),
         cmocka_unit_test(channels_have_their_walls),
         cmocka_unit_test(damaged_bytes_are_refused),
