@@ -60,13 +60,15 @@ static double fact(const struct gm_complex *complex, enum fact fact)
 static double observe(const struct gm_view *view)
 {
     const struct gm_system_measure *subject = gm_system_measure_of(view);
+    double defect;
     switch (subject->what) {
     case GM_FORM_ERROR:
         return gm_form_error(view->problem, view->state, view->t, subject->index);
     case GM_FORM_CONTRADICTION:
-        return gm_form_contradiction(view->problem, view->state, view->t, subject->index);
+        gm_form_balance(view->problem, view->state, view->t, subject->index, &defect);
+        return defect;
     case GM_FORM_REMAINDER:
-        return gm_form_remainder(view->problem, view->state, view->t, subject->index);
+        return gm_form_balance(view->problem, view->state, view->t, subject->index, &defect);
     case GM_FORM_OBSERVED:
         return *gm_form_observed(view->problem, view->state, view->t, subject->index);
     default:

@@ -680,13 +680,12 @@ static void place_forms(struct own *own, const double *y, double t)
         point_at(own, state);
         const unsigned needs = needs_of(&own->model->held);
         double change = 1;
-        for (int pass = 0; pass < MOST_PASSES && change > 0; pass++) {
+        for (int pass = 0; pass < (needs == GM_NEEDS_TIME ? 1 : MOST_PASSES) && change > 0; pass++) {
             if (needs & GM_NEEDS_UNKNOWNS) {
                 set_held(own, t, NULL);
                 solve(own, t);
             }
             change = set_held(own, t, state);
-            change = needs == GM_NEEDS_TIME ? 0 : change;
         }
     }
     point_at(own, state);
@@ -1028,11 +1027,6 @@ static bool has_step(const struct gm_form_program *program, enum gm_form_step_ki
     return i < program->count;
 }
 
-static bool solves_star(const struct gm_form_program *program)
-{
-    return has_step(program, GM_STEP_MATRIX, GM_MATRIX_DUAL_STAR1);
-}
-
 /* s at the points of samples on a part of the boundary: the length of its edges before them, with the surface on the
    left, from where a chain of them begins; a closed chain begins at its vertex of the lowest number. */
 static void measure_arcs(struct own *own, const bool *edges, struct gm_form_type type, double *arc)
@@ -1132,7 +1126,9 @@ static void hold(struct own *own, const double *variables)
         given |= system->forms[system->items[model->held_item[held->root]].variable].degree == 1 &&
                  (held->unknown ? own->given : own->start)[held->to] != 0;
     }
-    const bool inverts = own->space.mass && (solves_star(&model->equations) || solves_star(&model->rates));
+    const size_t inverse = GM_MATRIX_DUAL_STAR1;
+    const bool inverts = own->space.mass && (has_step(&model->equations, GM_STEP_MATRIX, inverse) ||
+                                             has_step(&model->rates, GM_STEP_MATRIX, inverse));
     gm_arena_refuse_if(
         own->arena, (given || own->held_changes) && inverts,
         "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
@@ -1434,17 +1430,12 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     return error / (size > 0 ? size : 1);
 }
 
-double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form)
+double gm_form_balance(const struct gm_problem *problem, const double *y, double t, size_t form,
+                       double *defect)
 {
     struct own *own = look(problem, y, t);
     pthread_mutex_unlock(&own->turn);
-    return own->defect[form];
-}
-
-double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form)
-{
-    struct own *own = look(problem, y, t);
-    pthread_mutex_unlock(&own->turn);
+    *defect = own->defect[form];
     return own->remainder[form];
 }
 

@@ -68,11 +68,10 @@ size_t gm_form_quantities(const struct gm_run *run, struct gm_quantity *quantiti
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
 /* The error of form i at a time, relative to the exact form; NaN without an `exact:`. */
 double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form);
-/* The part of the right side, in the equation of the unknown i, that no unknown can meet: relative. */
-double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form);
-
-/* The largest residual of its equations, relative to the largest sum of their terms' magnitudes. */
-double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form);
+/* The largest residual of the equations of the unknown i, relative to the largest sum of their terms' magnitudes, and
+   the relative part of its right side that no unknown can meet. */
+double gm_form_balance(const struct gm_problem *problem, const double *y, double t, size_t form,
+                       double *defect);
 
 /* The factors that are made when a problem is opened; `symmetric`: Cholesky's, else those by LU. Returns their number. */
 enum { GM_FORM_FACTORS = 4 };
