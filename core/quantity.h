@@ -44,7 +44,7 @@ struct gm_quantity {
    comes first. */
 struct gm_quantity gm_quantity_grid(const struct gm_run *run);
 
-enum { GM_QUANTITIES = 24 /* most of a kind */, GM_QUANTITY_AXES = 3 };
+enum { GM_QUANTITIES = 128 /* most of a kind */, GM_QUANTITY_AXES = 3 };
 
 /* The quantities of a run's states, into an array of GM_QUANTITIES. Returns their number. They stay valid
    with the run. */

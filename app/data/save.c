@@ -44,7 +44,8 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
 {
     const struct gm_data_format *format = format_of(path);
     if (!format) {
-        return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd, .xdmf", path);
+        return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd, .xdmf%s", path,
+                         gm_word_ends(basename(path), ".vtu") ? "; .pvd has a .vtu file for each row" : "");
     }
     const bool compares = format->refuse && request->count > 1;
     struct gm_lane *first = compares ? gm_request_open_lane(request, 0, message) : NULL;

@@ -270,7 +270,7 @@ static void skip_numbers(struct reader *reader, long count)
 static void add_curve(struct reader *reader, long tag, long physical)
 {
     reader->curves =
-        gm_arena_resize(reader->arena, reader->curves, reader->curve_count + 1, sizeof *reader->curves);
+        gm_arena_grown(reader->arena, reader->curves, reader->curve_count, sizeof *reader->curves);
     reader->curves[reader->curve_count++] =
         (struct curve){tag, labs(physical)}; /* the sign is an orientation */
 }
@@ -741,12 +741,9 @@ static void number_groups(struct reader *reader)
 
 static void put_into(struct reader *reader, int edge, long group)
 {
-    const size_t count = reader->member_count++;
-    if ((count & (count - 1)) == 0) { /* it is full: twice as many */
-        reader->members =
-            gm_arena_resize(reader->arena, reader->members, 2 * count + 1, sizeof *reader->members);
-    }
-    reader->members[count] = (struct gm_triangulation_member){edge, (int)group};
+    reader->members =
+        gm_arena_grown(reader->arena, reader->members, reader->member_count, sizeof *reader->members);
+    reader->members[reader->member_count++] = (struct gm_triangulation_member){edge, (int)group};
 }
 
 /* Puts an edge into all groups of its curve. */
@@ -884,11 +881,11 @@ int gm_triangulation_first(const struct gm_triangulation *mesh, size_t edge)
 
 bool gm_triangulation_has(const struct gm_triangulation *mesh, size_t edge, long tag)
 {
-    bool has = false;
-    for (int k = mesh->member_start[edge]; k < mesh->member_start[edge + 1]; k++) {
-        has |= mesh->member[k] == tag;
+    int k = mesh->member_start[edge];
+    while (k < mesh->member_start[edge + 1] && mesh->member[k] != tag) {
+        k++;
     }
-    return has;
+    return k < mesh->member_start[edge + 1];
 }
 
 void gm_triangulation_join(struct gm_triangulation *mesh, const struct gm_triangulation_member *members,

@@ -28,6 +28,7 @@ struct known {
     bool of_forms; /* it depends on forms or their operators */
     bool of_place; /* on x, y, z */
     bool of_time;
+    bool of_arc;      /* on s */
     struct part part; /* if it is marked */
 };
 
@@ -40,6 +41,7 @@ struct compiling {
     struct known *known;
     size_t nodes; /* of the graph when it began */
     bool linear;
+    size_t along;   /* 1 + the item of the line `boundary:` whose value is compiled; 0: none */
     gm_node_id now; /* the node that is compiled */
 };
 
@@ -114,15 +116,12 @@ static void require(struct compiling *compiling, bool holds, const char *rule, s
 static struct part made(struct compiling *compiling, struct gm_form_step step)
 {
     struct gm_form_program *program = compiling->program;
-    if ((program->count & (program->count - 1)) == 0) {
-        program->steps = gm_arena_resize(compiling->arena, program->steps,
-                                         program->count ? 2 * program->count : 1, sizeof *program->steps);
-    }
+    program->steps = gm_arena_grown(compiling->arena, program->steps, program->count, sizeof *program->steps);
     program->steps[program->count] = step;
     return (struct part){step.type, program->count++, compiling->now};
 }
 
-/* Renumbers a formula in x y z t and parameters. */
+/* Renumbers a formula in x y z s t and parameters. */
 static gm_node_id renumbered(struct compiling *compiling, gm_node_id node)
 {
     struct gm_user_system *system = compiling->system;
@@ -153,7 +152,12 @@ static struct part sampled(struct compiling *compiling, struct part part, struct
         memcpy(nodes, call->operands, call->count * sizeof *nodes);
     }
     for (size_t i = 0; i < step.components; i++) {
-        step.needs |= compiling->known[nodes[i]].of_time ? GM_NEEDS_TIME : 0;
+        const struct known *known = &compiling->known[nodes[i]];
+        step.needs |= known->of_time ? GM_NEEDS_TIME : 0;
+        step.number = known->of_arc ? compiling->along : step.number;
+        if (known->of_arc && compiling->along == 0) {
+            refuse(compiling, "s, the length along a part of the boundary, is in formulas without forms");
+        }
         step.nodes[i] = renumbered(compiling, nodes[i]);
     }
     return made(compiling, step);
@@ -529,7 +533,9 @@ static struct part closed(struct compiling *compiling, gm_node_id let, struct pa
             compiling->known[item->nodes[0]].of_forms) {
             refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
         }
+        compiling->along = i + 1;
         const struct part along = sampled(compiling, formula, primal_1);
+        compiling->along = 0;
         derivative = operate(compiling, GM_OPERATION_ADD, derivative,
                              made_of(compiling, GM_STEP_CLOSING, i, along, derivative.type));
     }
@@ -671,7 +677,7 @@ static void survey(struct compiling *compiling)
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_BOUNDARY) {
+        if (item->word == GM_WORD_BOUNDARY && item->count > 1) { /* of a let */
             known[item->nodes[0]].marked = true;
         }
     }
@@ -700,12 +706,14 @@ static void survey(struct compiling *compiling)
             here->of_forms = number < system->n || number >= system->first_call;
             here->of_place = number >= system->velocities && number < system->first_call;
             here->of_time = number == system->n;
+            here->of_arc = number == system->velocities + GM_FORM_PLACES - 1;
             continue;
         }
         const struct known *a = &known[node->a], *b = &known[gm_second_operand(node)];
         here->of_forms = a->of_forms || b->of_forms;
         here->of_place = a->of_place || b->of_place;
         here->of_time = a->of_time || b->of_time;
+        here->of_arc = a->of_arc || b->of_arc;
     }
 }
 
@@ -715,6 +723,7 @@ static void finish(struct compiling *compiling, const struct gm_form_root *root,
     struct part part = compiling->known[root->node].part;
     compiling->now = root->node;
     compiling->fault->offset = root->place;
+    compiling->along = root->along;
     const bool formula = is_formula(part) && part.type.degree != GM_FORM_COVECTOR;
     const bool zero = root->type.degree >= 0 && is_zero(compiling, part);
     if (root->type.degree == GM_FORM_ANY) {

@@ -28,11 +28,11 @@ struct gm_form_step {
     } kind;
     struct gm_form_type type;
     unsigned needs;
-    size_t a, b, number;
-    gm_node_id nodes[3]; /* of variables x y z t, then the parameters */
+    size_t a, b, number; /* of a sample: 1 + the item of the line `boundary:` that s is of; 0: none */
+    gm_node_id nodes[3]; /* of variables x y z s t, then the parameters */
     size_t components;   /* how many nodes: 3 of a 1-form */
 };
-enum { GM_SAMPLE_INPUTS = 4 }; /* x y z t */
+enum { GM_SAMPLE_INPUTS = GM_FORM_PLACES + 1 }; /* x y z s t */
 
 struct gm_form_program {
     struct gm_form_step *steps;
@@ -46,8 +46,8 @@ struct gm_form_root {
     gm_node_id node;
     struct gm_form_type type; /* degree GM_FORM_ANY: what it is */
     bool density;             /* a formula of the place is the density of the form */
-    bool along;               /* of a 1-form it is the density along an edge */
-    size_t place;             /* of its text */
+    size_t along; /* 1 + the item of a line `boundary:`: of a 1-form the density is along an edge; else 0 */
+    size_t place; /* of its text */
 };
 enum { GM_FORM_ANY = -9 };
 

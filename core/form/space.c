@@ -314,7 +314,7 @@ static struct gm_form_points *room_for(struct gm_arena *arena, size_t numbers, s
     const size_t count = numbers * each;
     struct gm_form_points *points = gm_arena_take(arena, 1, sizeof *points);
     *points = (struct gm_form_points){
-        .count = count, .each = each, .point = gm_arena_take(arena, 4 * count, sizeof(double))};
+        .count = count, .each = each, .point = gm_arena_take(arena, 5 * count, sizeof(double))};
     if (vectors) {
         points->vector = gm_arena_take(arena, 3 * count, sizeof(double));
     } else {

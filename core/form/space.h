@@ -57,7 +57,7 @@ struct gm_cholesky;
    points of weight times density, or of the vector times the covector. */
 struct gm_form_points {
     size_t count, each; /* all points, and those of a number */
-    double *point;      /* [4][count]: x, y, z, and room for the time */
+    double *point;      /* [5][count]: x, y, z, and room for s and the time */
     double *weight;     /* [count], or NULL for 1-forms */
     double *vector;     /* [3][count], of 1-forms */
 };

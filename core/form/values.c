@@ -53,14 +53,18 @@ static void sample(const struct gm_form_values *values, size_t i, double t)
     const struct gm_form_step *step = &values->program->steps[i];
     double *out = values->slot[i], *found = values->sampled[i];
     if (step->type.degree < 0) {
-        const double here[GM_SAMPLE_INPUTS] = {0, 0, 0, t};
+        const double here[GM_SAMPLE_INPUTS] = {[GM_FORM_PLACES] = t};
         gm_tape_values(&values->tapes[i], here, out, 1);
         return;
     }
     const struct gm_form_points *points = values->space->points[step->type.dual][step->type.degree];
     const size_t count = points->count;
     for (size_t k = 0; k < count; k++) {
-        points->point[3 * count + k] = t;
+        points->point[GM_FORM_PLACES * count + k] = t;
+    }
+    if (step->number > 0) {
+        memcpy(points->point + (GM_FORM_PLACES - 1) * count, values->arcs[step->number - 1],
+               count * sizeof t);
     }
     gm_tape_values(&values->tapes[i], points->point, found, count);
     for (size_t k = 0; k < count; k += points->each) {
@@ -102,6 +106,11 @@ static void operate(const struct gm_form_values *values, size_t i)
     case GM_OPERATION_MULTIPLY:
         for (size_t k = 0; k < n; k++) {
             out[k] = a[p * k] * b[q * k];
+        }
+        break;
+    case GM_OPERATION_NEGATE:
+        for (size_t k = 0; k < n; k++) {
+            out[k] = -a[k];
         }
         break;
     default:

@@ -15,6 +15,7 @@ struct gm_form_values {
     double **sampled;                 /* scratch of each of these */
     const struct gm_matrix *closings; /* for each item of the system: edges to vertices */
     const struct gm_matrix *around;   /* for each part in integral(PART, a): edges to a number */
+    double *const *arcs;              /* for each item of the system: s at the points of its samples */
     struct gm_hodge *hodge;           /* NULL: no step needs it */
     double time;                      /* of the samples; NaN: none were made */
 };

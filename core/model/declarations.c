@@ -577,7 +577,7 @@ static struct gm_form_declared form_of(struct gm_reading *reading, struct gm_spa
                         "dual 2-form");
     return (struct gm_form_declared){(int)(degree % 3), degree >= 3, word == GM_WORD_UNKNOWN,
                                      name->begin,       GM_NO_NODE,  GM_NO_NODE,
-                                     GM_NO_NODE,        GM_NO_NODE};
+                                     GM_NO_NODE,        GM_NO_NODE,  0};
 }
 
 /* NAME = k-form, NAME = dual k-form, .. */
@@ -599,13 +599,13 @@ static void add_forms(struct gm_reading *reading, enum gm_system_word word)
 /* Adds the place, and unnamed variables for operators. */
 static void add_places(struct gm_reading *reading)
 {
-    static const char *const places[GM_FORM_PLACES] = {"x", "y", "z"};
-    for (size_t i = 0; i < GM_FORM_PLACES; i++) {
+    static const char *const places[GM_FORM_PLACES] = {"x", "y", "z", "s"};
+    for (size_t i = 0; i + 1 < GM_FORM_PLACES; i++) {
         add_place(reading, places[i], 0);
     }
-    for (size_t i = 0; i < GM_MOST_FORM_CALLS; i++) {
+    for (size_t i = 0; i < 1 + GM_MOST_FORM_CALLS; i++) { /* s is found on parts of the boundary alone */
         reading->velocity_count++;
-        add_variable(reading, &(struct gm_entry){.name = ""});
+        add_variable(reading, &(struct gm_entry){.name = i > 0 ? "" : places[GM_FORM_PLACES - 1]});
     }
 }
 

@@ -621,6 +621,7 @@ static void read_equation(struct gm_reading *reading, const struct gm_read_line 
     struct gm_form_declared *form = &system->forms[entry->number];
     gm_system_refuse_if(system, form->left != GM_NO_NODE, name.begin, "%s has two equations", entry->name);
     gm_system_refuse_if(system, equals == rest.end, rest.begin, "= was expected");
+    form->equation = rest.begin;
     form->left = gm_reading_formula(reading, (struct gm_span){rest.begin, equals});
     form->right = gm_reading_formula(reading, (struct gm_span){equals + 1, rest.end});
 }
@@ -840,7 +841,9 @@ static void read_held(struct gm_reading *reading, const struct gm_read_line *lin
     const struct gm_target target = gm_reading_assignment(reading, rest);
     const struct gm_entry *entry = gm_reading_sought(reading, &target, 0);
     struct gm_system_item *item = gm_reading_item(reading, line, part);
+    reading->along = true;
     add_formula(reading, item, target.value);
+    reading->along = false;
     item->variable = entry->number;
     if (entry->role == GM_ENTRY_NAMED) {
         gm_item_add(reading, item, entry->node);

@@ -304,6 +304,10 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     const int brief = gm_brief_length(name->length);
     const bool room = gm_system_is_room(system), fixed = name->fixed || reading->context.fixed;
     struct gm_entry *entry = gm_reading_entry(reading, name->text, name->length, name->indexed, name->index);
+    if (!entry && reading->along && gm_text_same(name->text, name->length, "s", 1)) {
+        *node = gm_formula_variable(&system->graph, system->velocities + GM_FORM_PLACES - 1);
+        return GM_KNOWN;
+    }
     if (!entry) {
         return refuse_index(reading, name, sentence);
     }

@@ -55,6 +55,7 @@ struct gm_reading {
     bool structural;       /* the graph depends on values of parameters */
     bool without_tangents; /* the motion alone is read */
     bool ignores_breaks;   /* given: breaks=ignored */
+    bool along;            /* the value of a form on a part of the boundary is read, which may hold s */
     bool degenerate;       /* L is linear in the velocities: the text is read again, without momenta */
     size_t component_count, velocity_count, parameter_count;
     struct gm_definition *definitions; /* the functions of the text */

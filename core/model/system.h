@@ -61,7 +61,7 @@ enum gm_form_operator {
     GM_FORM_OPERATORS
 };
 /* The most calls of such a system. */
-enum { GM_MOST_FORM_CALLS = 256, GM_FORM_PLACES = 3 };
+enum { GM_MOST_FORM_CALLS = 256, GM_FORM_PLACES = 4 /* x y z s */ };
 
 /* A call in a formula: variable number `calls` of the system + its own. */
 struct gm_form_call {
@@ -77,12 +77,13 @@ struct gm_form_declared {
     size_t place;
     gm_node_id start, exact;
     gm_node_id left, right; /* equation of an unknown */
+    size_t equation;        /* its place in the text */
 };
 
 /* A variable of the graph. The numbers of variables: n components; t; parameters; for a Lagrangian n / 2
    velocities, for a field x and u_x, for matrices x, for an evolution x, all u_x, all u_xx .. u_xxxx; n
    components at the start, x(0); and, without fields, n components of the exact solution, exact(x). Forms: n forms; t;
-   parameters; x, y, z; calls. */
+   parameters; x, y, z and s, the length along a part of the boundary; calls. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* value of a parameter; of t its value at the start; else NaN */

@@ -159,12 +159,20 @@ long gm_lane_lost(const struct gm_lane *lane)
 void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
 {
     const long lost = gm_lane_lost(lane);
+    const struct gm_view view = gm_lane_view(lane);
     text[0] = '\0';
+    for (size_t i = 0; lost < 0 && i < lane->scene->observable_count && !text[0]; i++) {
+        const struct gm_observable *observable = &lane->scene->observables[i];
+        const double value = observable->most > 0 ? gm_observe(observable, &view) : 0;
+        if (value > observable->most) {
+            snprintf(text, size, "%s is %.3g, above %g: %s", observable->key, value, observable->most,
+                     observable->title);
+        }
+    }
     if (lost < 0) {
         return;
     }
     const struct gm_observable *observable = &lane->scene->observables[lost];
-    const struct gm_view view = gm_lane_view(lane);
     const double error = gm_lane_observe(lane, (size_t)lost);
     const double left = gm_observe(observable, &view) / initial_of(observable, &view);
     if (error <= lost_above(lane->scheme) && left >= 0) {

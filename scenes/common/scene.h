@@ -70,6 +70,7 @@ struct gm_observable {
     const char *missing;
     const char *(*why)(const struct gm_view *view);
     bool of_members;   /* without further members it has no meaning, and is printed only on request */
+    double most;       /* a warning is due above it; 0: none */
     double period;     /* period of an angle, which is printed unwrapped; 0: none */
     bool recalls;      /* computed from the record of earlier steps */
     bool logarithmic;  /* drawn on a log axis */

@@ -208,7 +208,7 @@ void gm_form_draw_duals(const struct gm_form_sheet *sheet)
     gm_form_draw_grid(sheet, (struct gm_style){primal.role, 0.55, 1.2, GM_SOLID}, false);
     gm_form_draw_dual(sheet, (struct gm_style){dual.role, 0.45, 1.1, GM_SOLID});
     const size_t vertex = nearest_of(sheet, 0, 0.22, 0.5), edge = nearest_of(sheet, 1, 0.5, 0.6),
-                 whole = nearest_of(sheet, 2, 0.76, 0.44);
+                 whole = nearest_of(sheet, 2, 0.68, 0.42);
     const int *corner = complex->triangle, v = corner[3 * sheet->triangle[vertex / 3] + vertex % 3],
               e = complex->triangle_edge[3 * sheet->triangle[edge / 3] + edge % 3];
     for (size_t i = 0; i < 3 * sheet->count; i++) {

@@ -60,13 +60,15 @@ static double fact(const struct gm_complex *complex, enum fact fact)
 static double observe(const struct gm_view *view)
 {
     const struct gm_system_measure *subject = gm_system_measure_of(view);
+    double defect;
     switch (subject->what) {
     case GM_FORM_ERROR:
         return gm_form_error(view->problem, view->state, view->t, subject->index);
     case GM_FORM_CONTRADICTION:
-        return gm_form_contradiction(view->problem, view->state, view->t, subject->index);
+        gm_form_balance(view->problem, view->state, view->t, subject->index, &defect);
+        return defect;
     case GM_FORM_REMAINDER:
-        return gm_form_remainder(view->problem, view->state, view->t, subject->index);
+        return gm_form_balance(view->problem, view->state, view->t, subject->index, &defect);
     case GM_FORM_OBSERVED:
         return *gm_form_observed(view->problem, view->state, view->t, subject->index);
     default:
@@ -104,7 +106,9 @@ static void add_of_form(struct gm_form_scene *scene, struct gm_form_subject subj
     const char *key = gm_arena_print(arena, "%s_%s", name, rows[subject.what].key),
                *title =
                    gm_arena_print(arena, "%s%s%s", rows[subject.what].before, name, rows[subject.what].after);
-    add(scene, (struct gm_observable)GM_LOG_OBSERVABLE(key, observe, title), subject);
+    struct gm_observable row = GM_LOG_OBSERVABLE(key, observe, title);
+    row.most = subject.what == GM_FORM_REMAINDER ? 1e-9 : 0; /* of a linear system that is solved */
+    add(scene, row, subject);
 }
 
 static void make_observables(struct gm_form_scene *scene)

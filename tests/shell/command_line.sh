@@ -41,6 +41,7 @@ refused 1 'did you mean --theme$' render disc --thm
 refused 1 '"nope"; see geomint --help$' nope
 refused 1 'no option --vtk; there are --json, --state, --max, --csv' run disc --vtk a
 refused 1 'no ending of .npz, .csv, .pvd, .xdmf' run disc --save=a.hdf5
+refused 1 '.pvd has a .vtu file for each row' run disc --save=a.vtu
 refused 1 'did you mean kepler$' list keplr
 refused 1 'did you mean schemes$' list schems
 refused 1 'not "xyzzy"$' list xyzzy

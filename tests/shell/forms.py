@@ -69,6 +69,8 @@ for words, key, value, tolerance in NUMBERS:
 
 KEPT = [
     (["form-wave", "until=500", "--max"], "energy_error_max", 1.5e-4),
+    (["form-maxwell", "--max"], "charge_max", 1e-14),
+    (["form-maxwell", "star=barycentric", "until=20", "--max"], "charge_max", 1e-14),
     (["form-shallow"], "mass", 1e-14),
     (["form-shallow"], "curl", 1e-12),
     (["form-maxwell", "--max"], "energy_error_max", 1.28e-3),
@@ -298,7 +300,8 @@ def listed(name, *words):
 maxwell = listed("form-maxwell")
 check(maxwell["splits"] == [["E"], ["B"]] and maxwell["linear"] and maxwell["factors"] == [] and
       [(form["name"], form["line"], form["type"]) for form in maxwell["forms"]] ==
-      [("E", "field", "1-form"), ("B", "field", "2-form"), ("energy", "invariant", "number")] and
+      [("E", "field", "1-form"), ("B", "field", "2-form"), ("energy", "invariant", "number"),
+       ("charge", "observe", "number"), ("inside", "let", "0-form")] and
       maxwell["invariants"][0]["kept"] and maxwell["mesh"]["betti"] == [1, 0, 0] and
       maxwell["mesh"]["vertices"] - maxwell["mesh"]["edges"] + maxwell["mesh"]["triangles"] == 1, f"{maxwell}")
 vorticity = listed("form-vorticity")
@@ -348,6 +351,66 @@ found = written(HELD.replace("rate: u = laplace(u) + 2*t", "unknown: v = 0-form\
                              "boundary: left v = t\nboundary: right v = 1 + t\nexact: v = x + t\nrate: u = laplace(u) + 2*v - 2*x"))
 check(found["u_error"] < 1e-13 and found["v_error"] < 1e-13, f"held values of unknowns: {found}")
 
+# s is the length along a part of the boundary with the surface on the left, at vertices and along edges
+ROUND = """geomint: 1
+mesh: rectangle 2 1 16 10
+unknown: u = 0-form
+equation: u; laplace(u) = 0
+field: E = 1-form, B = 1-form, C = 1-form
+rate: E = 0, B = 0, C = 0
+start: E = 0, B = 0, C = 0
+boundary: bottom u = s
+boundary: right u = 2 + s
+boundary: top u = 3 - s
+boundary: left u = 1 - s
+boundary: all E = s^2
+boundary: all B = form(2, 3)
+boundary: all C = 2*B - d(y)
+let: velocity = star(E)
+boundary: all velocity = s
+exact: u = x + y
+observe: length = integral(all, E)
+observe: lid = integral(top, B)
+observe: side = integral(right, C)
+observe: ended = integral(d(velocity))
+dt: 0.5
+until: 1
+"""
+found = written(ROUND)
+check(found["u_error"] < 1e-14 and abs(found["length"] - 72) < 1e-12 and abs(found["lid"] + 4) < 1e-13
+      and abs(found["side"] - 5) < 1e-13 and abs(found["ended"] - 18) < 1e-12, f"s along the boundary: {found}")
+# a clockwise circle of 24 edges from its first vertex, where an edge of length l has the values k l and (k + 1) l
+found = written(ROUND.replace("rectangle 2 1 16 10", "annulus 1 2 24 3").replace("boundary: all E = s^2", "boundary: inner E = s")
+                .replace("integral(all, E)", "integral(inner, E)").replace("boundary: all velocity = s\n", "").replace("top", "inner")
+                .replace("right", "outer").replace("boundary: bottom u = s\n", "").replace("boundary: left u = 1 - s\n", ""))
+check(abs(found["length"] - (48 * math.sin(math.pi / 24)) ** 2 / 2) < 1e-12, f"s along a circle: {found}")
+
+# values made of forms: a steady flow whose vorticity at walls is that of the velocity is the steady one of form-stokes
+found = written("""geomint: 1
+mesh: rectangle 1 1 10
+field: w = dual 2-form
+unknown: psi = 0-form
+let: u = -star(d(psi))
+equation: psi; -laplace(psi) = star(w)
+rate: w = laplace(w)
+boundary: all psi = 0
+boundary: top u = -1
+boundary: all w = d(u)
+start: w = 0
+observe: least = min(psi)
+schemes: rk4
+dt: 0.0008
+until: 1
+""")
+check(abs(found["least"] - observed("form-stokes", "mesh=rectangle 1 1 10")["psi_least"]) < 1e-13, f"walls of forms: {found}")
+MADE = (HELD.replace("field: u = 0-form", "field: u = 0-form, v = 0-form\nunknown: q = 0-form\nequation: q; laplace(q) = 0\n"
+                     "boundary: left q = v\nboundary: right q = 1 + t^2\nrate: v = 2*t").replace("start: u = x", "start: u = x, v = 0")
+        .replace("left u = t^2", "left u = v").replace("right u = 1 + t^2", "right u = q").replace("exact: u =", "exact: q = x + t^2, u ="))
+found = written(MADE)
+check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of other forms: {found}")
+found = written(MADE.replace("left q = v", "left q = u"))
+check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of values that are held: {found}")
+
 status, out, err = run(["form-wave", "mesh=there/is/none.msh"])
 check(status == 3 and "could not be read" in err, f"a mesh that is not there exits {status}: {err}")
 for words, sentence in (
@@ -363,6 +426,14 @@ DISC = "mesh: disc 1 3\nunknown: u = 2-form\nequation: u; u = d(form(x, y))\n"
 FREE = "unknown: u = 1-form\nequation: u; d(delta(u)) = form(x, y)"
 REFUSED += [
     (STEADY, "= x*y", "= x*y\nboundary: all u = 0", "5:11: boundary: all is not a part"),
+    (MADE, "left q = v", "left q = q", "6:11: an unknown is held at formulas and fields"),
+    (MADE, "right u = q", "right u = 2*u", "6:11: boundary: a value that is held is made of forms that it changes"),
+    (MADE, "left q = v", "left q = s*v", "6:20: s, the length along a part of the boundary, is in formulas without forms"),
+    (MADE, "left q = v", "left q = d(v)", "6:20: d(v) is a 1-form, and has to be a 0-form here"),
+    (MADE, "rate: v = 2*t", "rate: v = s", "8:11: there is no name s"),
+    (STEADY, "u = 0-form\nequation: u; -laplace(u) = x*y", "u = 0-form, v = dual 1-form\nlet: a = star(v)\nequation: u; u = 1\n"
+     "equation: v; v = star(u)", "6:14: v is a dual 1-form and star(u) a dual 2-form: they cannot be added"),
+    (STEADY, "= x*y", "= x*y" + "".join(f"\nlet: a{i} = {i}*u" for i in range(1, 63)), "66:12: a system has at most 62 forms"),
     (STEADY, "= x*y", "= x*y\nexact: w = 0", "5:8: there is no name w"),
     (STEADY, STEADY[11:-1], DISC + "boundary: all u = 0", "5:11: u is a 2-form: a 0-form, a 1-form or a dual 2-form is held"),
     (STEADY, "= x*y", "= x*y\ninterior: up", "5:11: interior: is dual, whitney or upwind"),

@@ -221,6 +221,55 @@ static void clocks_follow_the_step(void **unused)
     }
 }
 
+static double seven(const struct gm_view *view)
+{
+    (void)view;
+    return 7;
+}
+
+/* An observable that is above what it may be is told with its number. */
+static void excess_is_told(void **unused)
+{
+    (void)unused;
+    char text[GM_MESSAGE];
+    struct gm_lane *lane = open_lane("kepler dt=0.1", NULL);
+    assert_non_null(lane);
+    const struct gm_scene *given = lane->scene;
+    const struct gm_observable one = {
+        .key = "rest", .title = "what is left", .evaluate = seven, .most = 1e-9};
+    struct gm_scene scene = *given;
+    scene.observables = &one;
+    scene.observable_count = 1;
+    lane->scene = &scene;
+    gm_lane_warning(lane, text, sizeof text);
+    assert_string_equal(text, "rest is 7, above 1e-09: what is left");
+    struct gm_observable less = one;
+    less.most = 8;
+    scene.observables = &less;
+    gm_lane_warning(lane, text, sizeof text);
+    assert_string_equal(text, "");
+    lane->scene = given;
+    gm_lane_close(lane);
+}
+
+/* A problem of forms that was closed is the next one with its numbers; one in use is not shared. */
+static void closed_problems_return(void **unused)
+{
+    (void)unused;
+    char message[GM_MESSAGE];
+    struct gm_problem first = {0}, second = {0};
+    struct gm_lane *lane = open_lane("form-poisson level=1", NULL);
+    assert_non_null(lane);
+    assert_true(lane->scene->setup(lane->parameters, &first, message));
+    const void *was = first.parameters;
+    assert_ptr_not_equal(was, lane->problem.parameters);
+    lane->scene->close(&first);
+    assert_true(lane->scene->setup(lane->parameters, &second, message));
+    assert_ptr_equal(second.parameters, was);
+    lane->scene->close(&second);
+    gm_lane_close(lane);
+}
+
 /* Implicit Euler divides the area by 1 + h^2 in each step, explicit Euler multiplies it. */
 static void losses_are_told(void **unused)
 {
@@ -379,6 +428,8 @@ int main(void)
         cmocka_unit_test(clocks_follow_the_step),
         cmocka_unit_test(packed_lanes_go_on),
         cmocka_unit_test(losses_are_told),
+        cmocka_unit_test(excess_is_told),
+        cmocka_unit_test(closed_problems_return),
         cmocka_unit_test(refused_memory_is_no_fault_of_a_mesh),
         cmocka_unit_test(channels_have_their_walls),
         cmocka_unit_test(damaged_bytes_are_refused),

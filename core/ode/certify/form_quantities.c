@@ -93,7 +93,7 @@ size_t gm_form_quantities(const struct gm_run *run, struct gm_quantity *quantiti
          .derive = dual_vertices}};
     size_t count = GM_COUNT(mesh);
     memcpy(quantities, mesh, sizeof mesh);
-    for (size_t k = 0; k < model->named_count && count + 2 <= GM_QUANTITIES; k++) {
+    for (size_t k = 0; k < model->named_count; k++) {
         const struct gm_form_named *form = &model->named[k];
         const size_t places[] = {complex->vertices, complex->edges, complex->triangles};
         const enum gm_support supports[] = {GM_ON_NODES, GM_ON_EDGES, GM_ON_CELLS};

@@ -19,7 +19,7 @@
 #include "core/ode/kernel/stages.h"
 #include "core/user/line.h"
 
-enum { MOST_FACTORS = 8 };
+enum { MOST_FACTORS = 8, MOST_PASSES = 4 };
 
 /* The factors of stages, 1 - h a (x) J, for one h a: by Cholesky's method if the matrix is symmetric with cells as
    weights, as that of diffusion is. */
@@ -39,7 +39,7 @@ struct opening {
     const struct gm_form_model *model;
     struct gm_triangulation file; /* or the complex alone, of a generator */
     const double *variables;
-    enum gm_interior interior;
+    struct gm_form_choice choice;
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
 };
 
@@ -50,17 +50,27 @@ struct held_number {
     bool unknown;
 };
 
+/* A problem that is closed waits for one with the same numbers: a command opens it to see which schemes fit, and again
+   to run it. */
+struct gm_form_idle {
+    pthread_mutex_t turn;
+    struct own *own; /* or NULL */
+};
+
 struct own {
     struct gm_ode facets;
     struct gm_split split;
     struct gm_loops loops;
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
+    struct gm_form_choice choice;
+    double *variables;                    /* that it was opened with */
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
     struct gm_triangulation file;         /* the groups of its edges; empty if the mesh is not of a file */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
+    double **arcs;              /* for each item of the system: s at the points of its samples, or NULL */
     struct gm_matrix *around;   /* for each part of the boundary in integral(PART, a) */
     pthread_mutex_t turn;       /* one call after another */
     size_t n, half;             /* of the state, if it splits: forms of the first group are padded to it */
@@ -75,8 +85,8 @@ struct own {
     double *current; /* a state with what is held now */
     double *given;   /* values of held unknowns, else 0 */
     double *unknown, *residual, *start, *seen, *scratch;
-    double seen_time; /* of the state whose unknowns and observables are there; NaN: none */
-    bool observes;
+    double seen_time;        /* of the state whose unknowns and observables are there; NaN: none */
+    bool observes, measures; /* what is observed was computed; residuals are measured */
     struct gm_matrix matrix;
     size_t size; /* of the matrix: unknowns, and numbers of stars of 1-forms that are solved for */
     struct gm_cholesky *factor; /* NULL: `lu` */
@@ -168,20 +178,20 @@ static void compile_forms(const struct compiling *compiling)
         const struct gm_form_declared *form = &system->forms[i];
         const struct gm_form_type type = type_of(system, i);
         if (form->exact != GM_NO_NODE) {
-            exact[exacts++] = (struct gm_form_root){form->exact, type, true, false, form->place};
+            exact[exacts++] = (struct gm_form_root){form->exact, type, true, 0, form->place};
         }
         if (form->unknown) {
-            system->graph.place = system->graph.places[form->left];
+            system->graph.place = (uint32_t)form->equation;
             const gm_node_id node =
                 gm_formula_apply(&system->graph, GM_OPERATION_SUBTRACT, form->left, form->right);
             system->graph.place = GM_NO_PLACE;
             residuals[model->unknown_count] =
-                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, false, form->place};
+                (struct gm_form_root){node, {GM_FORM_ANY, false}, false, 0, form->place};
             model->unknowns[model->unknown_count++] = i;
             continue;
         }
-        starts[model->field_count] = (struct gm_form_root){form->start, type, true, false, form->place};
-        rates[model->field_count] = (struct gm_form_root){system->rates[i], type, false, false, form->place};
+        starts[model->field_count] = (struct gm_form_root){form->start, type, true, 0, form->place};
+        rates[model->field_count] = (struct gm_form_root){system->rates[i], type, false, 0, form->place};
         model->fields[model->field_count++] = i;
     }
     compile(compiling, &model->rates, rates, model->field_count, false);
@@ -197,7 +207,7 @@ static void compile_forms(const struct compiling *compiling)
         const int places = type.dual ? 2 - type.degree : type.degree,
                   rows = found.dual ? 2 - found.degree : found.degree;
         if (found.degree < 0 || places != rows) {
-            gm_fail(compiling->fault, system->graph.places[system->forms[i].left],
+            gm_fail(compiling->fault, system->forms[i].equation,
                     "the equation of %s, which is %s, is of %s: it has not one number for each of %s",
                     system->variables[i].name, gm_form_type_text(type), gm_form_type_text(found),
                     system->variables[i].name);
@@ -233,11 +243,25 @@ static void compile_held(const struct compiling *compiling)
             gm_arena_leave(system->arena);
         }
         model->held_item[count] = i;
-        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, true, item->place};
+        roots[count++] = (struct gm_form_root){item->nodes[0], type, true, i + 1, item->place};
     }
     compile(compiling, &model->held, roots, count, false);
-    limit(compiling, &model->held, roots, "a value that is held is a formula of x, y, z, t and parameters");
+    for (size_t k = 0; k < count; k++) {
+        const struct gm_form_declared *form = &system->forms[system->items[model->held_item[k]].variable];
+        gm_arena_need(
+            system->arena,
+            !form->unknown || !(model->held.steps[model->held.roots[k]].needs & GM_NEEDS_UNKNOWNS) ||
+                gm_fail(
+                    compiling->fault, roots[k].place,
+                    "an unknown is held at formulas and fields: what other unknowns give is an equation"));
+    }
     system->timed |= is_timed(&model->held);
+}
+
+/* True if values that are held are made of forms. */
+static bool holds_forms(const struct gm_form_model *model)
+{
+    return needs_of(&model->held) & (GM_NEEDS_FIELDS | GM_NEEDS_UNKNOWNS);
 }
 
 /* Finds a split of the fields, in their order, into two groups such that no rate holds fields of its own group. */
@@ -257,7 +281,7 @@ static void find_split(struct gm_form_model *model)
                       (!leaf && needs[step->a * system->n + f]) || (binary && needs[step->b * system->n + f]);
         }
     }
-    for (size_t split = 1; split < fields && model->unknown_count == 0; split++) {
+    for (size_t split = 1; split < fields && model->unknown_count == 0 && !holds_forms(model); split++) {
         bool splits = true;
         for (size_t i = 0; i < fields; i++) {
             for (size_t f = 0; f < fields; f++) {
@@ -283,7 +307,34 @@ static void name_form(const struct compiling *compiling, struct gm_form_named fo
                                   "a form cannot be called %s: pictures or files of forms have that word",
                                   form.name));
     }
+    gm_arena_need(model->system->arena,
+                  model->named_count < GM_MOST_NAMED_FORMS ||
+                      gm_fail(compiling->fault, place,
+                              "a system has at most %d forms, lets that are forms included",
+                              GM_MOST_NAMED_FORMS));
     model->named[model->named_count++] = form;
+}
+
+/* Lets another problem wait, or none. Returns the one that waited, or NULL. */
+static struct own *exchange_idle(struct gm_form_idle *idle, struct own *own)
+{
+    pthread_mutex_lock(&idle->turn);
+    struct own *before = idle->own;
+    idle->own = own;
+    pthread_mutex_unlock(&idle->turn);
+    return before;
+}
+
+static void close_own(struct own *own)
+{
+    gm_arena_close(own ? own->arena : NULL);
+}
+
+static void close_idle(void *data)
+{
+    struct gm_form_idle *idle = data;
+    close_own(idle->own);
+    pthread_mutex_destroy(&idle->turn);
 }
 
 static void compile_all(struct gm_arena *arena, void *data)
@@ -293,17 +344,20 @@ static void compile_all(struct gm_arena *arena, void *data)
     struct gm_user_system *system = model->system;
     struct gm_form_root *observed = gm_arena_take(arena, system->item_count + 1, sizeof *observed);
     model->observed_item = gm_arena_take(arena, system->item_count + 1, sizeof *model->observed_item);
+    model->idle = gm_arena_take(arena, 1, sizeof *model->idle);
+    gm_arena_need(arena, pthread_mutex_init(&model->idle->turn, NULL) == 0);
+    gm_arena_keep(arena, model->idle, close_idle);
     compile_forms(compiling);
     system->timed |= is_timed(&model->rates) || is_timed(&model->equations);
-    find_split(model);
     compile_held(compiling);
+    find_split(model);
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE || item->word == GM_WORD_LET) {
             const int degree = item->word == GM_WORD_LET ? GM_FORM_ANY : GM_FORM_NUMBER;
             model->observed_item[model->observed_count] = i;
             observed[model->observed_count++] =
-                (struct gm_form_root){item->nodes[0], {degree, false}, false, false, item->place};
+                (struct gm_form_root){item->nodes[0], {degree, false}, false, 0, item->place};
         }
     }
     compile(compiling, &model->observed, observed, model->observed_count, false);
@@ -575,7 +629,9 @@ static void solve(struct own *own, double t)
     } else {
         good = gm_lu_apply(own->lu, right, own->unknown);
     }
-    measure_residuals(own);
+    if (own->measures) {
+        measure_residuals(own);
+    }
     for (size_t i = 0; i < own->unknowns; i++) {
         own->unknown[i] = good ? own->unknown[i] + own->given[i] : NAN;
     }
@@ -586,29 +642,53 @@ static void solve(struct own *own, double t)
 
 /* ---- the equations of motion ---- */
 
-/* Writes the values that are held at a time, of unknowns, and in a state. */
-static void set_held(struct own *own, double t, double *y)
+/* Writes the values that are held at a time, of unknowns, and in a state unless it is NULL. Returns the largest change
+   over the largest value. */
+static double set_held(struct own *own, double t, double *y)
 {
+    double change = 0, largest = 0;
     gm_form_values_run(&own->held_values, t, own->forms);
     for (size_t k = 0; k < own->held_count; k++) {
         const struct held_number *held = &own->held_numbers[k];
-        (held->unknown ? own->given : y)[held->to] =
-            held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+        const double value = held->sign * gm_form_values_root(&own->held_values, held->root)[held->from];
+        double *to = held->unknown ? own->given : y;
+        if (to) {
+            change = fmax(change, fabs(to[held->to] - value));
+            largest = fmax(largest, fabs(value));
+            to[held->to] = value;
+        }
+    }
+    return largest > 0 ? change / largest : 0;
+}
+
+/* Lets forms be those of this state. */
+static void point_at(struct own *own, double *state)
+{
+    const struct gm_user_system *system = own->model->system;
+    for (size_t i = 0; i < system->n; i++) {
+        own->forms[i] = (system->forms[i].unknown ? own->unknown : state) + own->offset[i];
     }
 }
 
-/* Lets forms be those of a state; if values that are held change, of a copy with their values now. */
+/* Lets forms be those of a state; if values that are held change, of a copy with their values now, which may be made of
+   others. */
 static void place_forms(struct own *own, const double *y, double t)
 {
     double *state = (double *)(uintptr_t)y;
     if (own->held_changes) {
         state = memcpy(own->current, y, own->n * sizeof *y);
-        set_held(own, t, state);
+        point_at(own, state);
+        const unsigned needs = needs_of(&own->model->held);
+        double change = 1;
+        for (int pass = 0; pass < (needs == GM_NEEDS_TIME ? 1 : MOST_PASSES) && change > 0; pass++) {
+            if (needs & GM_NEEDS_UNKNOWNS) {
+                set_held(own, t, NULL);
+                solve(own, t);
+            }
+            change = set_held(own, t, state);
+        }
     }
-    for (size_t i = 0; i < own->model->system->n; i++) {
-        own->forms[i] =
-            own->model->system->forms[i].unknown ? own->unknown + own->offset[i] : state + own->offset[i];
-    }
+    point_at(own, state);
 }
 
 /* Writes the rates of fields first .. last - 1; f[0] is the rate of the state's number `base`. */
@@ -703,19 +783,16 @@ static void derive(struct gm_arena *arena, void *data)
     gm_matrix_scale(&own->rows, moves);
 }
 
-static void drop_factors(struct own *own)
+/* Closes the factors of stages, and the Jacobian that they are of. */
+static void drop_factors(void *data)
 {
+    struct own *own = data;
     for (size_t i = 0; i < MOST_FACTORS; i++) {
         gm_arena_close(own->factors[i].arena);
         own->factors[i] = (struct stage_factor){0};
     }
     gm_arena_close(own->derived);
     own->derived = NULL;
-}
-
-static void close_factors(void *own)
-{
-    drop_factors(own);
 }
 
 /* Makes `rows` at a state, unless they are those. False when out of memory. */
@@ -940,15 +1017,66 @@ static void open_values(struct own *own, struct gm_form_values *values, const st
     gm_form_values_open(values, own->arena, program, &own->space, own->model->system, variables);
 }
 
-/* True if a program takes the star of a dual 1-form. */
-static bool solves_star(const struct gm_form_program *program)
+/* True if a program has a step of this kind and number. */
+static bool has_step(const struct gm_form_program *program, enum gm_form_step_kind kind, size_t number)
 {
-    bool solves = false;
-    for (size_t i = 0; i < program->count; i++) {
-        solves |=
-            program->steps[i].kind == GM_STEP_MATRIX && program->steps[i].number == GM_MATRIX_DUAL_STAR1;
+    size_t i = 0;
+    while (i < program->count && (program->steps[i].kind != kind || program->steps[i].number != number)) {
+        i++;
     }
-    return solves;
+    return i < program->count;
+}
+
+/* s at the points of samples on a part of the boundary: the length of its edges before them, with the surface on the
+   left, from where a chain of them begins; a closed chain begins at its vertex of the lowest number. */
+static void measure_arcs(struct own *own, const bool *edges, struct gm_form_type type, double *arc)
+{
+    const struct gm_complex *complex = own->space.complex;
+    const size_t vertices = complex->vertices, count = type.degree == 1 ? 5 * complex->edges : vertices;
+    const double *points = gm_form_points_of(&own->space, own->arena, type)->point;
+    int *leaving = gm_arena_take(own->arena, 2 * vertices, sizeof *leaving), *entering = leaving + vertices;
+    for (size_t e = 0; e < complex->edges; e++) {
+        const bool back = complex->edge_triangle[2 * e] < 0;
+        if (edges[e]) {
+            leaving[complex->edge[2 * e + back]] = entering[complex->edge[2 * e + !back]] = (int)e + 1;
+        }
+    }
+    for (size_t i = 0; i < 2 * vertices; i++) { /* open chains, then closed ones */
+        const size_t begin = i % vertices;
+        double s = 0;
+        for (size_t v = begin; leaving[v] > 0 && (i >= vertices || s > 0 || entering[v] == 0);) {
+            const size_t e = (size_t)leaving[v] - 1;
+            double tail[3];
+            gm_complex_vertex(complex, v, tail);
+            for (size_t k = 5 * e; k < 5 * e + 5 && type.degree == 1; k++) {
+                arc[k] = s + gm_hypot(gm_hypot(points[k] - tail[0], points[count + k] - tail[1]),
+                                      points[2 * count + k] - tail[2]);
+            }
+            leaving[v] = 0;
+            s += complex->length[e];
+            v = (size_t)complex->edge[2 * e + ((size_t)complex->edge[2 * e] == v)];
+            if (type.degree != 1 && v != begin) {
+                arc[v] = s;
+            }
+        }
+    }
+}
+
+/* Measures s for the samples of lines `boundary:` that hold it. */
+static void make_arcs(struct own *own, struct gm_form_values *values)
+{
+    const struct gm_form_program *program = values->program;
+    bool *edges = gm_arena_take(own->arena, own->space.complex->edges, sizeof *edges);
+    values->arcs = own->arcs;
+    for (size_t i = 0; i < program->count; i++) {
+        const struct gm_form_step *step = &program->steps[i];
+        if (step->kind == GM_STEP_SAMPLE && step->number > 0 && !own->arcs[step->number - 1]) {
+            double *arc = doubles(own, gm_form_points_of(&own->space, own->arena, step->type)->count);
+            mark_part(own, "boundary", own->model->system->items[step->number - 1].name, edges);
+            measure_arcs(own, edges, step->type, arc);
+            own->arcs[step->number - 1] = arc;
+        }
+    }
 }
 
 static void hold_number(struct own *own, size_t root, size_t from, double sign)
@@ -956,10 +1084,7 @@ static void hold_number(struct own *own, size_t root, size_t from, double sign)
     const size_t variable = own->model->system->items[own->model->held_item[root]].variable;
     const bool unknown = own->model->system->forms[variable].unknown;
     const size_t to = own->offset[variable] + from, count = own->held_count++;
-    if ((count & (count - 1)) == 0) {
-        own->held_numbers =
-            gm_arena_resize(own->arena, own->held_numbers, 2 * count + 1, sizeof *own->held_numbers);
-    }
+    own->held_numbers = gm_arena_grown(own->arena, own->held_numbers, count, sizeof *own->held_numbers);
     own->held_numbers[count] = (struct held_number){root, from, to, sign, unknown};
     (unknown ? own->held_unknown : own->held)[to] = true;
 }
@@ -973,29 +1098,37 @@ static void hold(struct own *own, const double *variables)
     bool *edges = gm_arena_take(own->arena, complex->edges, sizeof *edges), given = false,
          *own_edges = gm_arena_take(own->arena, complex->edges, sizeof *own_edges);
     open_values(own, &own->held_values, &model->held, variables);
+    make_arcs(own, &own->held_values);
     for (size_t i = 0; i < model->held.root_count; i++) {
+        const struct gm_form_step *step = &model->held.steps[model->held.roots[i]];
+        const bool density = step->kind == GM_STEP_SAMPLE && step->components == 1;
         const struct gm_system_item *item = &system->items[model->held_item[i]];
         const int degree = system->forms[item->variable].degree;
         mark_part(own, "boundary", item->name, edges);
         for (size_t e = 0; e < complex->edges; e++) {
             if (edges[e] && degree == 1) {
                 own_edges[e] = true;
-                hold_number(own, i, e,
-                            complex->edge_triangle[2 * e] >= 0 ? 1 : -1); /* the surface is on its left */
+                hold_number(
+                    own, i, e,
+                    density && complex->edge_triangle[2 * e] < 0 ? -1 : 1); /* the surface is on its left */
             }
             for (size_t k = 0; k < 2 && edges[e] && degree != 1; k++) {
                 hold_number(own, i, (size_t)complex->edge[2 * e + k], 1);
             }
         }
     }
-    own->held_changes = is_timed(&model->held);
-    set_held(own, 0, own->start);
+    own->held_changes = needs_of(&model->held) != 0;
+    if (!holds_forms(model)) {
+        set_held(own, 0, own->start);
+    }
     for (size_t k = 0; k < own->held_count; k++) {
         const struct held_number *held = &own->held_numbers[k];
         given |= system->forms[system->items[model->held_item[held->root]].variable].degree == 1 &&
                  (held->unknown ? own->given : own->start)[held->to] != 0;
     }
-    const bool inverts = own->space.mass && (solves_star(&model->equations) || solves_star(&model->rates));
+    const size_t inverse = GM_MATRIX_DUAL_STAR1;
+    const bool inverts = own->space.mass && (has_step(&model->equations, GM_STEP_MATRIX, inverse) ||
+                                             has_step(&model->rates, GM_STEP_MATRIX, inverse));
     gm_arena_refuse_if(
         own->arena, (given || own->held_changes) && inverts,
         "a 1-form is held at values that are not 0, and its star is inverted: write star(f) = k*d(p), "
@@ -1052,6 +1185,22 @@ static void take_start(struct own *own, const double *variables)
     }
 }
 
+/* Holds values that are made of forms, at the start. With numbers for a start that are not 0 they have to be the same
+   once they are held. */
+static void hold_forms(struct own *own)
+{
+    double *state = doubles(own, own->n);
+    for (size_t i = 0; i < own->n; i++) {
+        state[i] = own->start[i] + (i % 7 + 1) / 8.0;
+    }
+    place_forms(own, state, 0);
+    solve(own, 0);
+    gm_arena_refuse_if(own->arena, set_held(own, 0, own->current) > 1e-9,
+                       "boundary: a value that is held is made of forms that it changes");
+    place_forms(own, own->start, 0);
+    memcpy(own->start, own->current, own->n * sizeof *own->start);
+}
+
 static void make(struct gm_arena *arena, void *data)
 {
     struct opening *opening = data;
@@ -1070,7 +1219,10 @@ static void make(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, &own->file, gm_triangulation_close);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
     gm_arena_keep(arena, &own->space, gm_form_space_close);
-    own->space.interior = opening->interior;
+    own->space.interior = opening->choice.interior;
+    own->choice = opening->choice;
+    own->variables = doubles(own, system->variable_count);
+    memcpy(own->variables, variables, system->variable_count * sizeof *variables);
     gm_arena_need(arena, pthread_mutex_init(&own->turn, NULL) == 0);
     gm_arena_keep(arena, &own->turn, close_turn);
     own->offset = gm_arena_take(arena, system->n + 1, sizeof *own->offset);
@@ -1098,6 +1250,7 @@ static void make(struct gm_arena *arena, void *data)
             own->cell[own->offset[model->fields[k]] + j] = type.degree == 0 ? cell[j] : 1 / cell[j];
         }
     }
+    own->arcs = gm_arena_take(arena, system->item_count + 1, sizeof *own->arcs);
     make_closings(own);
     open_values(own, &own->rates, &model->rates, variables);
     open_values(own, &own->exacts, &model->exacts, variables);
@@ -1106,18 +1259,25 @@ static void make(struct gm_arena *arena, void *data)
     take_start(own, variables);
     hold(own, variables);
     make_around(own);
-    own->rates.around = own->equations.around = own->observed.around = own->around;
-    own->rates.closings = own->equations.closings = own->observed.closings = own->closings;
+    own->rates.around = own->equations.around = own->observed.around = own->held_values.around = own->around;
+    make_arcs(own, &own->rates);
+    make_arcs(own, &own->equations);
+    make_arcs(own, &own->observed);
+    own->rates.closings = own->equations.closings = own->observed.closings = own->held_values.closings =
+        own->closings;
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
-        place_forms(own, own->start, 0);
+        point_at(own, own->start);
         gm_form_values_run(&own->equations, 0, own->forms);
         assemble(own);
     }
-    gm_arena_keep(arena, own, close_factors);
+    if (holds_forms(model)) {
+        hold_forms(own);
+    }
+    gm_arena_keep(arena, own, drop_factors);
     own->loops = (struct gm_loops){.field = field, .correct = correct};
     own->facets.forms = true;
-    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates);
+    own->facets.stiff = model->unknown_count == 0 && is_linear(&model->rates) && !holds_forms(model);
     if (model->split > 0 && !system->timed) {
         own->loops.velocity = velocity;
         own->loops.force = force;
@@ -1132,18 +1292,32 @@ static void make(struct gm_arena *arena, void *data)
 /* True if a program takes a part of a 1-form, for which equations are solved. */
 static bool decomposes(const struct gm_form_program *program)
 {
-    bool found = false;
-    for (size_t i = 0; i < program->count; i++) {
-        found |= program->steps[i].kind == GM_STEP_EXACT || program->steps[i].kind == GM_STEP_COEXACT;
-    }
-    return found;
+    return has_step(program, GM_STEP_EXACT, 0) || has_step(program, GM_STEP_COEXACT, 0);
+}
+
+static struct gm_problem problem_of(struct own *own)
+{
+    return (struct gm_problem){.name = "forms",
+                               .kind = &gm_kind_ode,
+                               .n = own->n,
+                               .m = 1,
+                               .facets = &own->facets,
+                               .parameters = own};
 }
 
 bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model *model,
                           struct gm_form_choice choice, const double *variables, struct gm_fault *fault)
 {
     *fault = (struct gm_fault){0};
-    struct opening opening = {.model = model, .variables = variables, .interior = choice.interior};
+    struct opening opening = {.model = model, .variables = variables, .choice = choice};
+    struct own *idle = exchange_idle(model->idle, NULL);
+    if (idle && idle->choice.star == choice.star && idle->choice.interior == choice.interior &&
+        memcmp(idle->variables, variables, model->system->variable_count * sizeof *variables) == 0) {
+        idle->seen_time = NAN;
+        *problem = problem_of(idle);
+        return true;
+    }
+    close_own(idle);
     const bool opened = open_mesh(&opening, choice.star, fault);
     const bool solves =
         opened && (model->unknown_count > 0 || decomposes(&model->rates) || decomposes(&model->equations) ||
@@ -1161,19 +1335,15 @@ bool gm_form_problem_open(struct gm_problem *problem, const struct gm_form_model
         gm_arena_close(arena);
         return false;
     }
-    *problem = (struct gm_problem){.name = "forms",
-                                   .kind = &gm_kind_ode,
-                                   .n = opening.own->n,
-                                   .m = 1,
-                                   .facets = &opening.own->facets,
-                                   .parameters = opening.own};
+    *problem = problem_of(opening.own);
     return true;
 }
 
 void gm_form_problem_close(struct gm_problem *problem)
 {
     if (problem->parameters) {
-        gm_arena_close(own_of(problem)->arena);
+        struct own *own = own_of(problem);
+        close_own(exchange_idle(own->model->idle, own));
         problem->parameters = NULL;
     }
 }
@@ -1202,8 +1372,9 @@ static struct own *look(const struct gm_problem *problem, const double *y, doubl
         memcpy(own->seen, y, problem->n * sizeof *y);
         own->seen_time = t;
         place_forms(own, own->seen, t);
+        own->measures = true;
         solve(own, t);
-        own->observes = false;
+        own->observes = own->measures = false;
     }
     return own;
 }
@@ -1259,17 +1430,12 @@ double gm_form_error(const struct gm_problem *problem, const double *y, double t
     return error / (size > 0 ? size : 1);
 }
 
-double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form)
+double gm_form_balance(const struct gm_problem *problem, const double *y, double t, size_t form,
+                       double *defect)
 {
     struct own *own = look(problem, y, t);
     pthread_mutex_unlock(&own->turn);
-    return own->defect[form];
-}
-
-double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form)
-{
-    struct own *own = look(problem, y, t);
-    pthread_mutex_unlock(&own->turn);
+    *defect = own->defect[form];
     return own->remainder[form];
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/form/program.h"
 #include "core/ode/ode.h"
+#include "core/quantity.h"
 
 /* A form that files and pictures have by its name. */
 struct gm_form_named {
@@ -31,6 +32,7 @@ struct gm_form_model {
         *mesh_text; /* the file of the mesh, and its bytes, which the caller keeps; NULL: generated */
     size_t mesh_size;
     struct gm_form_type *equation_types; /* of each unknown */
+    struct gm_form_idle *idle;           /* the problem that was closed last, for its next use */
     size_t split; /* fields before this one have rates of those from it on, and these of those; 0: none */
 };
 
@@ -59,17 +61,17 @@ const struct gm_form_space *gm_form_space_of(const struct gm_problem *problem);
 const struct gm_form_model *gm_form_model_of(const struct gm_problem *problem);
 /* The numbers of a named form in a state, which for an unknown are solved for; valid until the next call. */
 const double *gm_form_numbers(const struct gm_problem *problem, const double *y, double t, size_t named);
-/* The arrays of files (gm_quantities): the mesh, and named forms. */
+/* The arrays of files (gm_quantities): the mesh, 4, and of each named form one for tables and one for pictures. */
+enum { GM_MOST_NAMED_FORMS = (GM_QUANTITIES - 4) / 2 };
 size_t gm_form_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 /* The value of what is observed, a number or a form; valid until the next call. */
 const double *gm_form_observed(const struct gm_problem *problem, const double *y, double t, size_t observed);
 /* The error of form i at a time, relative to the exact form; NaN without an `exact:`. */
 double gm_form_error(const struct gm_problem *problem, const double *y, double t, size_t form);
-/* The part of the right side, in the equation of the unknown i, that no unknown can meet: relative. */
-double gm_form_contradiction(const struct gm_problem *problem, const double *y, double t, size_t form);
-
-/* The largest residual of its equations, relative to the largest sum of their terms' magnitudes. */
-double gm_form_remainder(const struct gm_problem *problem, const double *y, double t, size_t form);
+/* The largest residual of the equations of the unknown i, relative to the largest sum of their terms' magnitudes, and
+   the relative part of its right side that no unknown can meet. */
+double gm_form_balance(const struct gm_problem *problem, const double *y, double t, size_t form,
+                       double *defect);
 
 /* The factors that are made when a problem is opened; `symmetric`: Cholesky's, else those by LU. Returns their number. */
 enum { GM_FORM_FACTORS = 4 };
