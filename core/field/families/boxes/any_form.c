@@ -74,6 +74,7 @@ struct work {
     double *past_z[PAST], *past_y[PAST]; /* z and y of previous steps, the last one first */
     double *first_z, *first_y;           /* z and y at the start of an iteration */
     double *gradient, *hessian;          /* [component][stage]; [row][column][stage] */
+    double *linear, linear_dt;           /* the equations of a cell but for S'', for this dt; 0: not made */
     double *right;          /* [row]: what is left of the equations of a cell, then what changes */
     double _Complex *waves; /* r * points */
     struct gm_fourier *fourier;
@@ -235,6 +236,7 @@ static void open_arrays(struct gm_arena *arena, void *data)
     work->gradient = take(work, stages);
     work->hessian = take(work, work->d * stages);
     work->right = take(work, stages + sides);
+    work->linear = take(work, (work->stages + work->sides) * (work->stages + 2 * work->sides));
     work->scratch = take(work, sides + 2 * points);
     work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
     work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
@@ -332,11 +334,6 @@ static const double *stage_of(const struct work *work, const double *z, size_t c
     return z + ((c * work->r + j) * work->r + m) * work->points;
 }
 
-static double *row_of(const struct work *work, size_t c, size_t j, size_t m)
-{
-    return work->right + ((c * work->r + j) * work->r + m) * work->points;
-}
-
 /* The factor that makes equations of sides as large as the equations of stages. */
 static double weight_of_sides(const struct work *work)
 {
@@ -352,59 +349,15 @@ static double jump_of(const struct work *work, size_t a)
     return sum;
 }
 
-/* right := grad S - M T - K X, and what closes the sides; with work->gradient as the gradient. */
-static void find_right(struct work *work, double dt, bool tangent)
-{
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    const size_t points = work->points, d = work->d, r = work->r;
-    const double dx = work->problem->line.dx;
-    memcpy(work->right, work->gradient, work->stages * points * sizeof(double));
-    for (size_t c = 0; c < d; c++) {
-        for (size_t row = 0; row < r * r; row++) {
-            const size_t j = row / r, m = row % r;
-            double *to = row_of(work, c, j, m);
-            for (size_t e = 0; e < d; e++) {
-                const double in_time = form->m[c * d + e] / dt, in_space = form->k[c * d + e] / dx;
-                for (size_t k = 0; k < r && in_time != 0; k++) {
-                    add(to, stage_of(work, work->z, e, k, m), -in_time * work->inverse[j][k], points);
-                }
-                if (in_time != 0) {
-                    add(to, work->low + (e * r + m) * points, in_time * work->sums[j], points);
-                }
-                for (size_t l = 0; l < r && in_space != 0; l++) {
-                    add(to, stage_of(work, work->z, e, j, l), -in_space * work->inverse[m][l], points);
-                }
-            }
-            for (size_t a = 0; a < work->rank; a++) {
-                if (work->slopes[c][a] != 0) {
-                    add(to, work->y + (j * work->rank + a) * points, work->slopes[c][a] * work->sums[m] / dx,
-                        points);
-                }
-            }
-        }
-    }
-    const double weight = weight_of_sides(work);
-    for (size_t j = 0; j < r; j++) {
-        for (size_t a = 0; a < work->rank; a++) {
-            const double *y = work->y + (j * work->rank + a) * points;
-            double *to = work->right + (work->stages + j * work->rank + a) * points;
-            memset(to, 0, points * sizeof *to);
-            add_next(to, y, -weight, tangent ? 0 : jump_of(work, a), points);
-            add(to, y, weight * work->rest, points);
-            for (size_t c = 0; c < d; c++) {
-                for (size_t l = 0; l < r && work->basis[c][a] != 0; l++) {
-                    add(to, stage_of(work, work->z, c, j, l), weight * work->weights[l] * work->basis[c][a],
-                        points);
-                }
-            }
-        }
-    }
-}
-
 /* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the
    right y. */
-static void cell_matrix(const struct work *work, double dt, double *matrix)
+static const double *find_linear(struct work *work, double dt)
 {
+    double *const matrix = work->linear;
+    if (work->linear_dt == dt) {
+        return matrix;
+    }
+    work->linear_dt = dt;
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t d = work->d, r = work->r, q = r * r, rank = work->rank, stages = work->stages;
     const size_t columns = stages + 2 * work->sides;
@@ -435,6 +388,37 @@ static void cell_matrix(const struct work *work, double dt, double *matrix)
                     row[c * q + j * r + l] = -weight * work->weights[l] * work->basis[c][a];
                 }
             }
+        }
+    }
+    return matrix;
+}
+
+/* right := grad S - M T - K X, and what closes the sides; with work->gradient as the gradient. */
+static void find_right(struct work *work, double dt, bool tangent)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t points = work->points, d = work->d, r = work->r, stages = work->stages, sides = work->sides;
+    const size_t rows = stages + sides, columns = rows + sides;
+    const double *matrix = find_linear(work, dt);
+    memcpy(work->right, work->gradient, stages * points * sizeof(double));
+    memset(work->right + stages * points, 0, sides * points * sizeof(double));
+    for (size_t at = 0; at < stages * d; at++) {
+        const size_t row = at / d, e = at % d, j = row / r % r, m = row % r;
+        const double in_time = form->m[row / (r * r) * d + e] / dt;
+        if (in_time != 0) {
+            add(work->right + row * points, work->low + (e * r + m) * points, in_time * work->sums[j],
+                points);
+        }
+    }
+    for (size_t at = 0; at < rows * columns; at++) {
+        const size_t column = at % columns, side = column < stages ? 0 : (column - stages) % sides;
+        double *to = work->right + at / columns * points;
+        if (matrix[at] != 0 && column < rows) {
+            add(to, column < stages ? work->z + column * points : work->y + side * points, -matrix[at],
+                points);
+        } else if (matrix[at] != 0) {
+            add_next(to, work->y + side * points, -matrix[at], tangent ? 0 : jump_of(work, side % work->rank),
+                     points);
         }
     }
 }
@@ -527,18 +511,14 @@ static bool factor(struct work *work, struct factors *factors, bool shared, doub
     if (!open_factors(work, factors, shared)) {
         return false;
     }
-    /* the last cell holds the matrix that all cells share until its own turn */
-    double *const last = factors->cells + (shared ? 0 : work->points - 1) * rows * columns;
-    cell_matrix(work, dt, last);
+    const double *linear = find_linear(work, dt);
     gm_ring_band_clear(&factors->sides);
     factors->good = true;
     for (size_t i = 0; i < work->points && factors->good; i++) {
         const size_t place = shared ? 0 : i;
         double *matrix = factors->cells + place * rows * columns;
         if (!shared || i == 0) {
-            if (matrix != last) {
-                memcpy(matrix, last, rows * columns * sizeof *last);
-            }
+            memcpy(matrix, linear, rows * columns * sizeof *linear);
             subtract_hessian(work, work->hessian + place, matrix);
             if (!shared && i + 1 == work->points) {
                 hold_potentials(work, matrix);
