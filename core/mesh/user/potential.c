@@ -204,18 +204,11 @@ static bool weigh(struct own *self, const struct gm_user_mesh *chosen, const dou
     return true;
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_wave *wave;
-    const double *values;
-    const struct gm_user_mesh *chosen;
-};
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_wave *wave = opening->wave;
-    const struct gm_user_mesh *chosen = opening->chosen;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_wave *wave = opening->formulas;
+    const struct gm_user_mesh *chosen = opening->more;
     const double *values = opening->values;
     struct own *self = gm_user_line_take(arena, opening->problem, wave->system, sizeof *self);
     const struct gm_user_line *line = &self->line;
@@ -268,7 +261,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                        const struct gm_user_mesh *chosen)
 {
     *problem = (struct gm_problem){.name = "wave equation", .m = 1, .kind = &gm_kind_mesh, .facets = &facets};
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values, chosen});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, wave, values, chosen});
 }
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)
