@@ -18,7 +18,6 @@
 struct gm_faces {
     double *lower, *upper; /* points * r * dimension */
     double *sides;         /* (points + 1) * s * dimension */
-    double *scratch;       /* points */
 };
 
 /* Stages and weights (of sum 1) of such a scheme, and the sides of its cells. */
@@ -57,9 +56,6 @@ void gm_law_differentiate(const struct gm_law *law, const double *y, const doubl
    of which those in `to` that are not NULL receive the derivative. The levels of a two-step scheme are dt apart. */
 void gm_law_differentiate_levels(const struct gm_law *law, size_t count, const double *const from[],
                                  const double *const along[], double *const to[]);
-
-/* The faces of one tangent, all 0, of the arena. */
-struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
 
 /* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents,
    makes a step, and fills in their faces. */

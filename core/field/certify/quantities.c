@@ -49,7 +49,7 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
         quantities->fixed = false;
         quantities->derive = places;
     }
-    if (field->form && field->form->hessians) {
+    if (gm_form_is_state(field->form)) {
         for (size_t c = 0; c < field->form->dimension; c++) {
             end = add(end, field->form->names[c], GM_ON_NODES, points, c * points);
         }

@@ -801,25 +801,12 @@ static bool linearise(struct work *work, double dt)
 
 static void advance_tangent(struct work *work, double dt)
 {
-    const size_t d = work->d, count = work->r * work->r * work->points;
     memset(work->z, 0, work->stages * work->points * sizeof(double));
     memset(work->y, 0, work->sides * work->points * sizeof(double));
-    for (int again = 0; again < 2; again++) {
-        /* solved again for what rounding leaves */
-        for (size_t c = 0; c < d; c++) {
-            double *gradient = work->gradient + c * count;
-            memset(gradient, 0, count * sizeof *gradient);
-            for (size_t e = 0; e < d; e++) {
-                const double *bend = work->hessian + (c * d + e) * count, *z = work->z + e * count;
-                for (size_t i = 0; i < count; i++) {
-                    gradient[i] += bend[i] * z[i];
-                }
-            }
-        }
-        find_right(work, dt, true);
-        solve_each(work, &work->newton);
-        add_changes(work);
-    }
+    memset(work->gradient, 0, work->stages * work->points * sizeof(double));
+    find_right(work, dt, true);
+    solve_each(work, &work->newton);
+    add_changes(work);
     find_high(work);
 }
 
@@ -1095,17 +1082,19 @@ static size_t recall(struct work *work, const double *memory)
 /* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them:
    from values at the nodes they would differ by an error of the grid, which would change its sign at every
    step. */
-static void integrate_potentials(struct work *work)
+static void integrate_potentials(struct work *work, double *level)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const struct gm_collocation_tableau *tableau = work->tableau;
     const size_t points = work->points, r = work->r, d = work->d;
     const double dx = work->problem->line.dx;
-    find_gradients(work, work->low, work->gradient, r * points);
+    if (form->potential_count > 0) {
+        find_gradients(work, level, work->gradient, r * points);
+    }
     for (size_t p = 0; p < form->potential_count; p++) {
         const size_t component = form->potentials[p].component, row = form->potentials[p].row;
         const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
-        double *to = work->low + component * r * points, left = 0;
+        double *to = level + component * r * points, left = 0;
         for (size_t k = 0; k < work->rank; k++) {
             left += work->basis[component][k] * work->y[k * points];
         }
@@ -1265,7 +1254,7 @@ enum gm_status gm_any_form_start(const struct gm_task *task)
         return GM_OK;
     }
     to_stages(work, task->y, false, work->low);
-    integrate_potentials(work);
+    integrate_potentials(work, work->low);
     if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
         settle(work, task->dt);
     }
@@ -1430,6 +1419,50 @@ double gm_any_form_law(const struct gm_law *law)
     const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
                                      law->problem->line.dx, law->dt};
     return gm_lattice_law(law, &cells, advance_tangents);
+}
+
+/* ---- tangents of boxes of one stage whose state is a part of s ---- */
+
+struct gm_box_tangents {
+    struct work work; /* first */
+};
+
+struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells)
+{
+    static const struct gm_scheme box = {.coefficients = &midpoint};
+    struct work *work = gm_arena_keep(law->arena, gm_any_form_open(law->problem, &box), gm_any_form_close);
+    const struct gm_form *form = gm_field_of(law->problem)->form;
+    memcpy(work->z + form->first * work->points, cells, form->kept * work->points * sizeof *cells);
+    if (!linearise(work, law->dt)) {
+        gm_arena_leave(law->arena);
+    }
+    return (struct gm_box_tangents *)work;
+}
+
+/* The means of nodes in the cells, with the potentials that follow. */
+static void find_level(struct work *work, const double *nodes, double *level)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    memset(level, 0, of_level(work) * sizeof *level);
+    for (size_t part = 0; part < form->kept; part++) {
+        double *to = level + (form->first + part) * work->points;
+        add(to, nodes + part * work->points, 0.5, work->points);
+        add_next(to, nodes + part * work->points, 0.5, 0, work->points);
+    }
+    integrate_potentials(work, level);
+}
+
+void gm_box_advance_tangent(struct gm_box_tangents *box, double dt, const double *now, const double *next,
+                            struct gm_faces *faces)
+{
+    struct work *work = &box->work;
+    memset(work->y, 0, work->sides * work->points * sizeof *work->y);
+    find_level(work, now, work->low);
+    advance_tangent(work, dt);
+    if (next) {
+        find_level(work, next, work->high);
+    }
+    find_faces(work, faces);
 }
 
 #define OF_ANY_FORM .family = &gm_family_any_form, .needs = GM_NEEDS_ALL

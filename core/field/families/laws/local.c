@@ -149,7 +149,7 @@ bool gm_local_laws(const struct gm_problem *problem, const struct gm_scheme *sch
     if (field->wave) {
         return law_of(scheme) == GM_LAW_NODES && gm_law_measure(&of, measure_nodes, &local);
     }
-    const bool all = field->form->hessians != NULL, content = law == GM_LAW_OF_CONTENT;
+    const bool all = gm_form_is_state(field->form), content = law == GM_LAW_OF_CONTENT;
     if (all ? content || !is_box_of_all(scheme) : scheme->family != &gm_family_preissmann) {
         return false;
     }
