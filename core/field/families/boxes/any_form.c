@@ -833,6 +833,7 @@ static void find_faces(const struct work *work, struct gm_faces *faces)
         for (size_t j = 0; j < r; j++) {
             double *side = faces->sides + (i * r + j) * d;
             for (size_t c = 0; c < d; c++) {
+                side[c] = 0;
                 for (size_t a = 0; a < work->rank; a++) {
                     side[c] +=
                         work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
