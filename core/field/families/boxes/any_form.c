@@ -57,6 +57,7 @@ struct factors {
 struct work {
     const struct gm_problem *problem;
     const struct gm_collocation_tableau *tableau;
+    bool runs;                    /* else it has tangents alone */
     size_t points, d, r, rank;    /* rank: of K */
     size_t state;                 /* components that the state has at the nodes: all, or u of a wave */
     size_t stages, sides;         /* numbers of a cell: d r r and r rank */
@@ -218,32 +219,42 @@ static void close_fourier(void *fourier)
     gm_fourier_close(fourier);
 }
 
-static void open_arrays(struct gm_arena *arena, void *data)
+/* What steps need, and no tangent. */
+static void open_steps(struct work *work)
 {
-    struct work *work = data;
-    const size_t points = work->points, level = work->d * work->r * points;
-    const size_t stages = work->stages * points, sides = work->sides * points;
-    work->low = take(work, level);
-    work->high = take(work, level);
-    work->z = take(work, stages);
+    const size_t points = work->points, stages = work->stages * points, sides = work->sides * points;
     work->first_z = take(work, stages);
-    work->y = take(work, sides);
     work->first_y = take(work, sides);
     for (size_t k = 0; k < PAST; k++) {
         work->past_z[k] = take(work, stages);
         work->past_y[k] = take(work, sides);
     }
+    work->waves = gm_arena_take(work->arena, work->r * points, sizeof *work->waves);
+    work->fourier = gm_arena_keep(work->arena, gm_fourier_open(points), close_fourier);
+    /* a run needs these, or its numbers would depend on memory; the factors of Newton's method are many */
+    if (gm_field_of(work->problem)->form->potential_count == 0 &&
+        !open_factors(work, &work->constant, true)) {
+        gm_arena_leave(work->arena);
+    }
+}
+
+static void open_arrays(struct gm_arena *arena, void *data)
+{
+    struct work *work = data;
+    const size_t points = work->points, level = work->d * work->r * points;
+    const size_t stages = work->stages * points, sides = work->sides * points;
+    (void)arena;
+    work->low = take(work, level);
+    work->high = take(work, level);
+    work->z = take(work, stages);
+    work->y = take(work, sides);
     work->gradient = take(work, stages);
     work->hessian = take(work, work->d * stages);
     work->right = take(work, stages + sides);
     work->linear = take(work, (work->stages + work->sides) * (work->stages + 2 * work->sides));
     work->scratch = take(work, sides + 2 * points);
-    work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
-    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
-    /* a run needs these, or its numbers would depend on memory; the factors of Newton's method are many */
-    if (gm_field_of(work->problem)->form->potential_count == 0 &&
-        !open_factors(work, &work->constant, true)) {
-        gm_arena_leave(arena);
+    if (work->runs) {
+        open_steps(work);
     }
 }
 
@@ -260,6 +271,7 @@ void *gm_any_form_open(const struct gm_problem *problem, const struct gm_scheme 
     work->arena = arena;
     work->problem = problem;
     work->tableau = scheme->coefficients;
+    work->runs = scheme->family != NULL;
     work->points = problem->line.points;
     work->d = form->dimension;
     work->state = field->wave ? 1 : work->d;
@@ -1430,7 +1442,7 @@ struct gm_box_tangents {
 
 struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells)
 {
-    static const struct gm_scheme box = {.coefficients = &midpoint};
+    static const struct gm_scheme box = {.coefficients = &midpoint}; /* without a family it never runs */
     struct work *work = gm_arena_keep(law->arena, gm_any_form_open(law->problem, &box), gm_any_form_close);
     const struct gm_form *form = gm_field_of(law->problem)->form;
     memcpy(work->z + form->first * work->points, cells, form->kept * work->points * sizeof *cells);
