@@ -29,6 +29,7 @@
 #include "core/field/families/boxes/any_form.h"
 
 #include <complex.h>
+#include <stdint.h>
 
 #include "core/arena.h"
 #include "core/field/families/family.h"
@@ -88,10 +89,13 @@ struct work {
 
 /* ---- the workspace ---- */
 
-/* Returns NULL when out of memory; leaves the body while a workspace is opened. */
+/* Takes zeros that begin on a line of the cache: rows of all cells are added to each other. Returns NULL when out of memory;
+   leaves the body while a workspace is opened. */
 static double *take(const struct work *work, size_t count)
 {
-    return gm_arena_take(work->arena, count, sizeof(double));
+    enum { LINE = 64 };
+    char *block = gm_arena_take(work->arena, count * sizeof(double) + LINE, 1);
+    return block ? (double *)(void *)(block + (LINE - (uintptr_t)block % LINE)) : NULL;
 }
 
 static bool open_factors(const struct work *work, struct factors *factors, bool shared)
