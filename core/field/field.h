@@ -29,7 +29,8 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
 struct gm_form {
     size_t dimension;    /* dimension of s */
     const double *m, *k; /* dimension * dimension, row by row */
-    size_t first, kept;  /* the components that the state keeps, where elimination has reduced it */
+    size_t first,
+        kept; /* the components that the state keeps, where elimination has reduced it; u and u_t of a wave */
     /* S at one point, its gradient and its second derivatives at `count` of them, [component * count + point] and
        [(row * dimension + column) * count + point], and s(x + the ring) - s(x). A reduced state needs the second
        derivatives, and with potentials the gradient. */
@@ -75,7 +76,6 @@ struct gm_dispersive {
     double factor[2];                                       /* a, real and imaginary part */
     double (*dispersion)(const struct gm_problem *problem); /* b */
     bool derivative;                                        /* Q = A D */
-    bool complex_valued;
     void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count); /* g */
     /* V with V' = g */

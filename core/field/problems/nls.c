@@ -92,7 +92,6 @@ static const struct gm_form form = {
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
                                                 .dispersion = dispersion,
-                                                .complex_valued = true,
                                                 .nonlinear = nonlinear,
                                                 .potential = potential,
                                                 .content = content};

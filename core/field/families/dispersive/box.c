@@ -28,9 +28,10 @@ static double *array(const struct gm_two_step_work *work, size_t which)
 
 enum { NOW, NEXT, RIGHT, MEAN, FORCE, GUESS, SLOPES, ARRAYS = SLOPES + 2 };
 
-static size_t parts_of(const struct gm_dispersive *equation)
+/* 1 of a real field, 2 of a complex one */
+static size_t parts_of(const struct gm_problem *problem)
 {
-    return equation->complex_valued ? 2 : 1;
+    return gm_field_of(problem)->form->kept;
 }
 
 void *gm_dispersive_open(const struct gm_problem *problem)
@@ -41,7 +42,7 @@ void *gm_dispersive_open(const struct gm_problem *problem)
     /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
        on both sides, or one point more on the right. */
     if (!work ||
-        !gm_ring_newton_open(&work->newton, points, parts_of(equation), (size_t)equation->power - 1)) {
+        !gm_ring_newton_open(&work->newton, points, parts_of(problem), (size_t)equation->power - 1)) {
         free(work);
         return NULL;
     }
@@ -125,7 +126,7 @@ static void residual_at(void *context, const double *u, double *residual)
     const struct equations *equations = context;
     const struct gm_two_step_work *work = equations->work;
     const struct gm_dispersive *equation = gm_field_of(equations->problem)->dispersive;
-    const size_t points = work->points, parts = parts_of(equation);
+    const size_t points = work->points, parts = parts_of(equations->problem);
     double *next = array(work, NEXT), *rest = array(work, MEAN);
     memcpy(next, u, parts * points * sizeof *u);
     memset(next + parts * points, 0, (2 - parts) * points * sizeof *u);
@@ -143,8 +144,7 @@ static void residual_at(void *context, const double *u, double *residual)
 static void add_slope(const struct equations *equations, struct gm_ring_band *matrix, size_t i, size_t k,
                       double weight, double *const slopes[2])
 {
-    const size_t points = equations->work->points,
-                 parts = parts_of(gm_field_of(equations->problem)->dispersive);
+    const size_t points = equations->work->points, parts = parts_of(equations->problem);
     const size_t cell = (i + k) % points, row = i + 1 < points ? i + 1 : 0;
     for (size_t part = 0; part < parts; part++) {
         for (size_t column = 0; column < parts; column++) {
@@ -161,7 +161,7 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     const struct gm_two_step_work *work = equations->work;
     const struct gm_problem *problem = equations->problem;
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
-    const size_t points = work->points, parts = parts_of(equation);
+    const size_t points = work->points, parts = parts_of(problem);
     const int p = equation->power;
     const struct gm_form *form = gm_field_of(problem)->form;
     double *at = array(work, MEAN), *const slopes[2] = {array(work, SLOPES), array(work, SLOPES + 1)};
@@ -242,7 +242,7 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
             return GM_OK;
         }
     }
-    const size_t size = parts_of(equation) * points * sizeof *next;
+    const size_t size = parts_of(problem) * points * sizeof *next;
     const struct gm_ring_equations equations = {&self, residual_at, jacobian};
     double *guess = array(work, GUESS);
     memcpy(guess, next, size);
@@ -264,8 +264,7 @@ static bool make_ring(struct gm_ring_roots *ring, const struct gm_problem *probl
 struct gm_progress gm_dispersive_advance(const struct gm_task *task)
 {
     struct gm_two_step_work *work = task->workspace;
-    const struct gm_dispersive *equation = gm_field_of(task->problem)->dispersive;
-    const size_t points = work->points, size = points * sizeof(double);
+    const size_t points = work->points, size = points * sizeof(double), parts = parts_of(task->problem);
     struct gm_progress progress = {.status = GM_OK};
     double *now = array(work, NOW), *next = array(work, NEXT);
     struct gm_ring_roots ring;
@@ -273,23 +272,17 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
         progress.status = GM_NO_CONVERGENCE;
         return progress;
     }
-    memcpy(next, task->y, size);
-    memset(next + points, 0, size);
-    if (equation->complex_valued) {
-        memcpy(next + points, task->y + points, size);
-    }
+    memset(next, 0, 2 * size);
+    memcpy(next, task->y, parts * size);
     for (int64_t k = 0; k < task->steps; k++) {
         memcpy(now, next, 2 * size);
         progress.status = make_step(work, task->problem, &ring, task->dt, &progress);
-        if (!equation->complex_valued) {
-            /* the imaginary part is rounding */
-            memset(next + points, 0, size);
-        }
+        memset(next + parts * points, 0, (2 - parts) * size); /* of a real field it is rounding */
         if (!gm_field_stepped(task, &progress, next, 2 * points)) {
             return progress;
         }
     }
-    if (equation->complex_valued) {
+    if (parts == 2) {
         memcpy(task->out, next, 2 * size);
     } else {
         gm_wave_write(task, next, now);
@@ -297,10 +290,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     return progress;
 }
 
-/* ---- its multisymplectic law ----
-
-   Two tangents are advanced by a step, and the variables that elimination left out follow from the box equations that hold
-   them (gm_dispersive). */
+/* ---- its laws ---- */
 
 /* A solution, real parts and then imaginary ones: the level of the state, the next, and the means in the cells between. */
 struct base {
@@ -310,7 +300,7 @@ struct base {
 static struct base base_of(const struct gm_law *law)
 {
     const size_t points = law->problem->line.points, size = 2 * points,
-                 field = parts_of(gm_field_of(law->problem)->dispersive) * points * sizeof(double);
+                 field = parts_of(law->problem) * points * sizeof(double);
     double *now = gm_arena_take(law->arena, 3 * size + law->problem->n, sizeof *now), *after = now + 3 * size;
     const struct base base = {now, now + size, now + 2 * size};
     if (!gm_law_step(law, 1, law->y, NULL, after, NULL)) {
@@ -325,8 +315,7 @@ static struct base base_of(const struct gm_law *law)
 
 static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
-    const size_t points = law->problem->line.points,
-                 field = parts_of(gm_field_of(law->problem)->dispersive) * points;
+    const size_t points = law->problem->line.points, field = parts_of(law->problem) * points;
     const struct base base = base_of(law);
     double *now = gm_arena_take(law->arena, 4 * points + 2, sizeof *now), *next = now + 2 * points + 1;
     struct gm_box_tangents *box = gm_box_linearise(law, base.cells);

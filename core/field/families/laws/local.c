@@ -161,8 +161,7 @@ bool gm_local_laws(const struct gm_problem *problem, const struct gm_scheme *sch
     if (made && all) {
         measure_cells(&local, &trial, y, next, field->form->dimension, beyond_of_form);
     } else if (made) {
-        measure_cells(&local, &trial, y, next, field->dispersive->complex_valued ? 2 : 1,
-                      beyond_of_dispersive);
+        measure_cells(&local, &trial, y, next, field->form->kept, beyond_of_dispersive);
     }
     free(next);
     return made;
