@@ -80,6 +80,14 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
    memory or when the next step fails. */
 double gm_form_residual(struct gm_law law);
 
+/* The box of one stage, linearised at a solution whose means in the cells are these (gm_form.kept), for tangents of
+   schemes that make the same steps with all but these components eliminated. In the law's arena, which it leaves where the
+   equations are singular. */
+struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells);
+/* Fills in the faces of a step from a tangent at the nodes; with `next`, that of the scheme itself, to it. */
+void gm_box_advance_tangent(struct gm_box_tangents *box, double dt, const double *now, const double *next,
+                            struct gm_faces *faces);
+
 /* The local laws of a field on the line: of what its flow carries along (mass, charge), of energy and of
    momentum,
        dF1/dt + dF2/dx = 0,   dG1/dt + dG2/dx = 0

@@ -223,7 +223,7 @@ static void close_fourier(void *fourier)
     gm_fourier_close(fourier);
 }
 
-/* What steps need, and no tangent. */
+/* Takes the memory of steps; tangents do not need it. */
 static void open_steps(struct work *work)
 {
     const size_t points = work->points, stages = work->stages * points, sides = work->sides * points;

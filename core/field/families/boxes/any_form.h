@@ -40,12 +40,4 @@ double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *
 double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme,
                         const double *memory);
 
-/* The box of one stage, linearised at a solution whose means in the cells are these (gm_form.kept), for tangents of
-   schemes that make the same steps with all but these components eliminated. In the law's arena, which it leaves where the
-   equations are singular. */
-struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells);
-/* Fills in the faces of a step from a tangent at the nodes; with `next`, that of the scheme itself, to it. */
-void gm_box_advance_tangent(struct gm_box_tangents *box, double dt, const double *now, const double *next,
-                            struct gm_faces *faces);
-
 #endif

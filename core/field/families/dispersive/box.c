@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/two_step.h"
 #include "core/functions/functions.h"
 #include "core/linear/settled.h"

@@ -3,13 +3,12 @@
    schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
        Euler box   v = D_t^- u,   w = D_x^- u
        midpoint    w = D_0 u
-   The box has the tangents of all components (boxes/any_form.h). */
+   The box has the tangents of all components (gm_box_linearise). */
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "core/field/families/boxes/any_form.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
 
@@ -154,7 +153,7 @@ static struct tangent tangent_of(const struct base *base, size_t which)
     return a;
 }
 
-/* The means of u in the cells between two levels, and zeros in place of v. */
+/* The means of u in the cells between two levels, and zeros for v. */
 static const double *cells_of(const struct gm_law *law, const double *p, const double *q)
 {
     const struct gm_grid1 *grid = &law->problem->line;
@@ -166,8 +165,8 @@ static const double *cells_of(const struct gm_law *law, const double *p, const d
     return cells;
 }
 
-/* Tangents of the box of all components. Against them stand differences of the scheme's own steps: from the level before,
-   where the box leads back, with A_t V = D_t A_x u. */
+/* Advances tangents of the box of all components. They are compared with differences of the scheme's own steps from the
+   level before, which a step back of the box gives, with A_t V = D_t A_x u. */
 static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
     const size_t points = law->problem->line.points;
