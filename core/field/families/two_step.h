@@ -19,7 +19,7 @@ struct gm_two_step_work {
     double *rate[3];               /* rates of the levels */
     struct gm_ring ring;
     struct gm_ring_newton newton;  /* opened by schemes that use it */
-    double factored_k, factored_h; /* the step and the grid of newton.band, where it is one matrix; 0: none */
+    double factored_k, factored_h; /* step and dx that newton.band is factored for; 0: none */
 };
 
 /* One step of length dt: the next level from the past and the current one, both with their end points;
