@@ -11,8 +11,6 @@
 
 #include "core/kind.h"
 
-struct gm_faces; /* core/field/multisymplectic.h */
-
 /* Counts a step that has led to these values. Returns false if a value is beyond the task's limit, or not
    finite. */
 static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progress *progress,
@@ -31,14 +29,17 @@ static inline bool gm_field_stepped(const struct gm_task *task, struct gm_progre
 struct gm_form {
     size_t dimension;    /* dimension of s */
     const double *m, *k; /* dimension * dimension, row by row */
-    /* If the state is s itself, [component * points + node] at all nodes: S at one point, its gradient and
-       its second derivatives at `count` of them, [component * count + point] and [(row * dimension +
-       column) * count + point], and s(x + the ring) - s(x); NULL if elimination has reduced the state. */
+    size_t first,
+        kept; /* the components that the state keeps, where elimination has reduced it; u and u_t of a wave */
+    /* S at one point, its gradient and its second derivatives at `count` of them, [component * count + point] and
+       [(row * dimension + column) * count + point], and s(x + the ring) - s(x). A reduced state needs the second
+       derivatives, and with potentials the gradient. */
     double (*function)(const void *parameters, const double *s);
     void (*gradients)(const void *parameters, const double *s, double *gradient, size_t count);
     void (*hessians)(const void *parameters, const double *s, double *hessian, size_t count);
-    const double *jump;       /* NULL: 0 */
-    const char *const *names; /* names of the components */
+    const double *jump; /* NULL: 0 */
+    const char *const
+        *names; /* of the components, if the state is s itself, [component * points + node]; else NULL */
     /* Components that S does not contain and whose slope an equation without M gives, k s_x = dS of that
        row. They follow from the others up to a constant, as in phi_x = u of Korteweg-de Vries. */
     const struct gm_form_potential {
@@ -46,6 +47,12 @@ struct gm_form {
     } * potentials;
     size_t potential_count;
 };
+
+/* Returns true if the state is s itself. */
+static inline bool gm_form_is_state(const struct gm_form *form)
+{
+    return form && form->names;
+}
 
 enum { GM_MOST_OF_FORM = 8 }; /* components of a state that is s itself */
 
@@ -69,24 +76,14 @@ struct gm_dispersive {
     double factor[2];                                       /* a, real and imaginary part */
     double (*dispersion)(const struct gm_problem *problem); /* b */
     bool derivative;                                        /* Q = A D */
-    bool complex_valued;
     void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count); /* g */
-    /* The derivative of g at `base` along f; all arrays hold `count` real parts, then the imaginary ones. */
-    void (*linearised)(const struct gm_problem *problem, const double *base, const double *f, double *g,
-                       size_t count);
     /* V with V' = g */
     double (*potential)(const struct gm_problem *problem, double re, double im);
     /* The residual of the local law of mass or charge over a step of the box from `now` to `next`, for
-       every cell (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are
-       scratch. */
-    void (*content)(const struct gm_problem *problem, double dt, double *means, const double *now,
-                    const double *next, struct gm_faces *faces, double *residual);
-    /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
-       parts, then imaginary ones), from the linearised box equations that are not the field's own; `base`
-       holds the means of the solution in the cells. */
-    void (*complete)(const struct gm_problem *problem, double dt, const double *base, const double *now,
-                     const double *next, struct gm_faces *faces);
+       every cell (real parts, then imaginary ones), with the solution's `means` in the cells; flux is scratch. */
+    void (*content)(const struct gm_problem *problem, double dt, const double *means, const double *now,
+                    const double *next, double *flux, double *residual);
 };
 
 /* State of a wave problem, 2 points + 1 numbers: u at the current time t, u at another time, and the

@@ -124,12 +124,12 @@ void gm_law_differentiate_levels(const struct gm_law *law, size_t count, const d
     }
 }
 
-struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells)
+static struct gm_faces faces_of(const struct gm_law *law, const struct gm_lattice *cells)
 {
     const size_t d = gm_field_of(law->problem)->form->dimension;
     const size_t face = cells->points * cells->r * d, sides = (cells->points + 1) * cells->s * d;
-    double *lower = gm_arena_take(law->arena, 2 * face + sides + cells->points, sizeof *lower);
-    return (struct gm_faces){lower, lower + face, lower + 2 * face, lower + 2 * face + sides};
+    double *lower = gm_arena_take(law->arena, 2 * face + sides, sizeof *lower);
+    return (struct gm_faces){lower, lower + face, lower + 2 * face};
 }
 
 double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
@@ -137,7 +137,7 @@ double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
 {
     const struct gm_form *field = gm_field_of(law->problem)->form;
     const size_t d = field->dimension;
-    struct gm_faces faces[2] = {gm_faces_of(law, cells), gm_faces_of(law, cells)};
+    struct gm_faces faces[2] = {faces_of(law, cells), faces_of(law, cells)};
     const struct gm_faces *a = &faces[0], *b = &faces[1];
     double largest = 0;
     advance(law, faces);

@@ -18,7 +18,6 @@
 struct gm_faces {
     double *lower, *upper; /* points * r * dimension */
     double *sides;         /* (points + 1) * s * dimension */
-    double *scratch;       /* points */
 };
 
 /* Stages and weights (of sum 1) of such a scheme, and the sides of its cells. */
@@ -58,9 +57,6 @@ void gm_law_differentiate(const struct gm_law *law, const double *y, const doubl
 void gm_law_differentiate_levels(const struct gm_law *law, size_t count, const double *const from[],
                                  const double *const along[], double *const to[]);
 
-/* The faces of one tangent, all 0, of the arena. */
-struct gm_faces gm_faces_of(const struct gm_law *law, const struct gm_lattice *cells);
-
 /* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell; `advance` starts two tangents,
    makes a step, and fills in their faces. */
 double gm_lattice_law(const struct gm_law *law, const struct gm_lattice *cells,
@@ -83,6 +79,14 @@ double gm_nodes_law(const struct gm_law *law, bool centred, gm_complete_node *co
    only the step itself; it is then accurate to about 1e-9. Needs no arena. NaN if a scheme lacks such a law, when out of
    memory or when the next step fails. */
 double gm_form_residual(struct gm_law law);
+
+/* The box of one stage, linearised at a solution whose means in the cells are these (gm_form.kept), for tangents of
+   schemes that make the same steps with all but these components eliminated. In the law's arena, which it leaves where the
+   equations are singular. */
+struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells);
+/* Fills in the faces of a step from a tangent at the nodes; with `next`, that of the scheme itself, to it. */
+void gm_box_advance_tangent(struct gm_box_tangents *box, double dt, const double *now, const double *next,
+                            struct gm_faces *faces);
 
 /* The local laws of a field on the line: of what its flow carries along (mass, charge), of energy and of
    momentum,

@@ -30,12 +30,12 @@ bool gm_line_derive(struct gm_line_formulas *formulas, struct gm_user_system *sy
            (!gm_line_is_solved(system) || gm_system_place(system, formulas->exact, components));
 }
 
-bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
-                          void *data)
+bool gm_user_line_problem(void (*body)(struct gm_arena *arena, void *opening),
+                          struct gm_line_opening *opening)
 {
-    const bool opened = gm_arena_made(body, data);
+    const bool opened = gm_arena_made(body, opening);
     if (!opened) {
-        problem->parameters = problem->facets = NULL;
+        opening->problem->parameters = opening->problem->facets = NULL;
     }
     return opened;
 }

@@ -28,10 +28,18 @@ struct gm_user_line {
     struct gm_tape exact; /* of x and t; without outputs if the file gives no exact solution */
     double begin;         /* the time of the start */
 };
+/* A problem that is being opened, the formulas of its kind, the values of all variables (gm_equations_start), and
+   what else its kind needs. */
+struct gm_line_opening {
+    struct gm_problem *problem;
+    const void *formulas;
+    const double *values;
+    const void *more;
+};
 /* Opens a problem of such a file by a body, in an arena of its own. Returns false when out of memory: the problem then
    has no parameters. */
-bool gm_user_line_problem(struct gm_problem *problem, void (*body)(struct gm_arena *arena, void *data),
-                          void *data);
+bool gm_user_line_problem(void (*body)(struct gm_arena *arena, void *opening),
+                          struct gm_line_opening *opening);
 /* Closes any problem of such a file. */
 void gm_user_line_close(struct gm_problem *problem);
 /* The next three work in that body. Takes the problem's parameters, `size` bytes. */

@@ -64,11 +64,7 @@ static void draw_panels(struct gm_picture *picture, const struct gm_lane *const 
             const struct gm_view view = gm_lane_view(walk.lane);
             struct gm_view before = view;
             before.t = view.t0;
-            size_t sharing = 0;
-            for (size_t i = 0; i < count; i++) {
-                sharing += lanes[i]->shown.panel == walk.panel;
-            }
-            alone = sharing == 1;
+            alone = gm_lane_is_alone(lanes, count, walk.lane);
             panel = gm_walk_panel(picture, &walk, "");
             panel->axes = true;
             panel->x = (struct gm_axis){.label = "x", .low = -look->reach, .high = look->reach};

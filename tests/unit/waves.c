@@ -383,7 +383,7 @@ static void many_cells(void **unused)
             assert_int_equal(gm_run_advance(run, 20), GM_OK);
             const double residual = gm_form_residual((struct gm_law){
                 &problem, run->scheme, 0.1, gm_run_state(run), gm_run_memory(run), .by_differences = false});
-            if (!(residual < 1e-10)) {
+            if (!(residual < 1e-12)) {
                 fail_msg("%s, %zu cells: %.2e", names[s], points, residual);
             }
             gm_run_close(run);

@@ -28,7 +28,7 @@
 static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_field *field = gm_field_of(problem);
-    const unsigned form = !field->form ? 0 : field->form->hessians ? GM_NEEDS_ALL : GM_NEEDS_FORM;
+    const unsigned form = !field->form ? 0 : gm_form_is_state(field->form) ? GM_NEEDS_ALL : GM_NEEDS_FORM;
     return form | (field->wave ? GM_NEEDS_WAVE : 0) | (problem->line.points % 2 == 0 ? GM_NEEDS_PAIRS : 0) |
            field->equation;
 }
@@ -88,7 +88,7 @@ static bool begin_run(struct subject *subject, const double *y)
 static bool moves(const struct gm_problem *problem, size_t component)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
-    const bool all = form && form->hessians;
+    const bool all = gm_form_is_state(form);
     bool rate = !all;
     for (size_t row = 0; all && row < form->dimension; row++) {
         rate = rate || form->m[row * form->dimension + component] != 0;
@@ -719,7 +719,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         gm_certificate_note_same(certificate, &subject.problem, &no_settings, subject.dt, y);
         if (field->wave) {
             note_kept(certificate, GM_KEEPS_ENERGY, &subject, y, gm_wave_energy);
-        } else if (field->form && field->form->hessians) {
+        } else if (gm_form_is_state(field->form)) {
             const struct gm_kept energy = {.value = form_energy, .data = &subject};
             note_change(certificate, GM_KEEPS_ENERGY, &subject, y, &energy, name);
         }

@@ -49,11 +49,11 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
         quantities->fixed = false;
         quantities->derive = places;
     }
-    if (field->form && field->form->hessians) {
+    if (gm_form_is_state(field->form)) {
         for (size_t c = 0; c < field->form->dimension; c++) {
             end = add(end, field->form->names[c], GM_ON_NODES, points, c * points);
         }
-    } else if (field->dispersive && field->dispersive->complex_valued) {
+    } else if (field->dispersive && field->form->kept == 2) {
         end = add(end, "psi_re", GM_ON_NODES, points, 0);
         end = add(end, "psi_im", GM_ON_NODES, points, points);
     } else {

@@ -11,9 +11,8 @@
 
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    (void)scheme;
     enum { ARRAYS = 11 };
-    const size_t points = problem->line.points, length = points + 2;
+    const size_t points = problem->line.points, length = points + 2 * GM_LEVEL_PAD;
     struct gm_two_step_work *work = calloc(1, sizeof *work + ARRAYS * length * sizeof(double));
     if (!work) {
         return NULL;
@@ -22,8 +21,9 @@ void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme 
                                      &work->right,    &work->guess,    &work->cells,    &work->change,
                                      &work->rate[0],  &work->rate[1],  &work->rate[2]};
     work->points = points;
+    work->scheme = scheme;
     for (size_t i = 0; i < ARRAYS; i++) {
-        *arrays[i] = (double *)(void *)(work + 1) + i * length + 1;
+        *arrays[i] = (double *)(void *)(work + 1) + i * length + GM_LEVEL_PAD;
     }
     return work;
 }
@@ -59,6 +59,31 @@ void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *probl
     }
 }
 
+void gm_level_close_ring(double *level, size_t points)
+{
+    for (size_t i = 0; i < GM_LEVEL_PAD; i++) {
+        level[(ptrdiff_t)i - GM_LEVEL_PAD] = level[points - GM_LEVEL_PAD + i];
+        level[points + i] = level[i];
+    }
+}
+
+GM_CLONES static void add_terms(const double *u, const double *base, double *restrict next, size_t points,
+                                double drift, double convection, double dispersion)
+{
+    for (size_t j = 0; j < points; j++) {
+        const double *here = u + j, right = here[1], left = here[-1];
+        next[j] = base[j] + (drift - convection * (left + here[0] + right)) * (right - left) -
+                  dispersion * (here[2] - 2 * right + 2 * left - here[-2]);
+    }
+}
+
+void gm_kdv_add_terms(double *u, const double *base, double *next, size_t points, double drift,
+                      double convection, double dispersion)
+{
+    gm_level_close_ring(u, points);
+    add_terms(u, base, next, points, drift, convection, dispersion);
+}
+
 static void subtract(double *change, const double *level, const double *before, size_t points)
 {
     for (size_t i = 0; i < points; i++) {
@@ -86,7 +111,9 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     memcpy(work->level[0], task->y + points, size);
     gm_grid1_close(work->level[1], points, jump);
     gm_grid1_close(work->level[0], points, jump);
-    const bool regular = gap == -task->dt, remembers = row->keeps_change && task->memory;
+    const bool own = !row->keeps_origin || task->memory[0] == 1,
+               remembers = row->keeps_change && task->memory;
+    const bool regular = row->single || (own && gap == -task->dt);
     if (remembers) {
         memcpy(work->change, task->memory, size);
     } else if (row->keeps_change) {
@@ -97,18 +124,18 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
         memcpy(work->rate[0], task->memory + points, size);
     }
     for (int64_t k = 0; k < task->steps; k++) {
-        if (k > 0 || regular) {
-            progress.status = row->step(work, task->problem, task->dt, &progress);
+        const bool begins = k == 0 && !regular, returns = begins && own && gap == task->dt;
+        work->first = begins && !returns;
+        if (returns) {
+            memcpy(next, work->level[0], size);
+            memcpy(work->rate[2], work->rate[0], size);
+        } else if (work->first && row->start) {
+            row->start(work, task->problem, task->dt, gap);
         } else {
-            if (gap == task->dt) {
-                memcpy(next, work->level[0], size);
-                memcpy(work->rate[2], work->rate[0], size);
-            } else {
-                row->start(work, task->problem, task->dt, gap);
-            }
-            if (row->keeps_change) {
-                subtract(work->change, next, work->level[1], points);
-            }
+            progress.status = row->step(work, task->problem, task->dt, &progress);
+        }
+        if (begins && row->keeps_change) {
+            subtract(work->change, next, work->level[1], points);
         }
         if (progress.status == GM_OK && !gm_level_is_within(next, points, 0, task->limit)) {
             progress.status = GM_BLOW_UP;
@@ -128,6 +155,9 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     if (row->keeps_rates) {
         memcpy(task->memory_out, work->rate[1], size);
         memcpy(task->memory_out + points, work->rate[0], size);
+    }
+    if (row->keeps_origin) {
+        task->memory_out[0] = 1;
     }
     return progress;
 }

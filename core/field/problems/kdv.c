@@ -8,7 +8,6 @@
    U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes second. */
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/problems.h"
-#include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0};
@@ -29,75 +28,27 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
     }
 }
 
-static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
-                       size_t count)
+enum { PHI, U, V, W, DIMENSION };
+
+static void gradients(const void *parameters, const double *s, double *gradient, size_t count)
 {
+    const struct gm_kdv *kdv = parameters;
     for (size_t i = 0; i < count; i++) {
-        g[i] = gm_kdv_of(problem)->eta * base[i] * f[i];
-        g[count + i] = 0;
+        gradient[PHI * count + i] = 0;
+        gradient[U * count + i] = kdv->eta / 2 * s[U * count + i] * s[U * count + i] - s[W * count + i];
+        gradient[V * count + i] = s[V * count + i] / kdv->mu;
+        gradient[W * count + i] = -s[U * count + i];
     }
 }
 
-enum { PHI, U, V, W, DIMENSION };
-
-/* The components of s that the scheme eliminated, each from one equation:
-       phi   from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes
-             with it
-       v     from D_x u = A_x v / mu
-       w     from D_t A_x u/2 + D_x w = 0, and from the mean over the ring of
-                 -D_t phi/2 - D_x v = -A_x w + eta m u,
-             which else is the scheme; its alternating part is the one of v on an even number of points
-   Taking w from the last one would invert A_x twice and rounding with it. */
-static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
-                     const double *next, struct gm_faces *faces)
+static void hessians(const void *parameters, const double *s, double *hessian, size_t count)
 {
-    const size_t points = problem->line.points;
-    const double dx = problem->line.dx;
-    double phi_now = 0, phi_next = 0;
-    double *sides = faces->sides;
-    for (size_t i = 0; i <= points; i++) {
-        const size_t here = i < points ? i : 0, r = i + 1 < points ? i + 1 : 0;
-        double *side = sides + i * DIMENSION;
-        side[PHI] = (phi_now + phi_next) / 2;
-        side[U] = (now[here] + next[here]) / 2;
-        if (i < points) {
-            double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
-            lower[U] = (now[here] + now[r]) / 2;
-            upper[U] = (next[here] + next[r]) / 2;
-            lower[PHI] = phi_now + dx / 2 * lower[U];
-            upper[PHI] = phi_next + dx / 2 * upper[U];
-            phi_now += dx * lower[U];
-            phi_next += dx * upper[U];
-        }
-    }
-    double *slope = faces->scratch, alternating = 0;
-    for (size_t i = 0; i < points; i++) {
-        const double u = (faces->lower[i * DIMENSION + U] + faces->upper[i * DIMENSION + U]) / 2;
-        const double force = gm_kdv_of(problem)->eta * base[i] * u / (double)points;
-        alternating += i % 2 ? -force : force;
-        slope[i] = gm_kdv_of(problem)->mu * (sides[(i + 1) * DIMENSION + U] - sides[i * DIMENSION + U]) / dx;
-    }
-    gm_ring_unaverage(slope, points);
-    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
-        const double free = dx / 2 * alternating;
-        slope[i] += i % 2 ? -free : free;
-    }
-    for (size_t i = 0; i <= points; i++) {
-        sides[i * DIMENSION + V] = slope[i < points ? i : 0];
-    }
-    double w = 0, mean = 0;
-    for (size_t i = 0; i <= points; i++) {
-        sides[i * DIMENSION + W] = w;
-        if (i < points) {
-            const double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
-            const double change = dx * (upper[U] - lower[U]) / (2 * dt);
-            mean += (upper[PHI] - lower[PHI]) / (2 * dt) +
-                    gm_kdv_of(problem)->eta * base[i] * (lower[U] + upper[U]) / 2 - (w - change / 2);
-            w -= change;
-        }
-    }
-    for (size_t i = 0; i <= points; i++) {
-        sides[i * DIMENSION + W] += mean / (double)points;
+    const struct gm_kdv *kdv = parameters;
+    memset(hessian, 0, sizeof(double[DIMENSION * DIMENSION]) * count);
+    for (size_t i = 0; i < count; i++) {
+        hessian[(U * DIMENSION + U) * count + i] = kdv->eta * s[U * count + i];
+        hessian[(U * DIMENSION + W) * count + i] = hessian[(W * DIMENSION + U) * count + i] = -1;
+        hessian[(V * DIMENSION + V) * count + i] = 1 / kdv->mu;
     }
 }
 
@@ -108,12 +59,11 @@ static double potential(const struct gm_problem *problem, double re, double im)
 }
 
 /* D_t A^3 u + D_x [A g + mu D^2 A_t u], g in the cells: the mass */
-static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
-                    const double *next, struct gm_faces *faces, double *residual)
+static void content(const struct gm_problem *problem, double dt, const double *means, const double *now,
+                    const double *next, double *flux, double *residual)
 {
     const size_t points = problem->line.points;
     const double dx = problem->line.dx, eta = gm_kdv_of(problem)->eta, mu = gm_kdv_of(problem)->mu;
-    double *flux = faces->scratch;
     for (size_t i = 0; i < points; i++) {
         const size_t r = (i + 1) % points, r2 = (i + 2) % points;
         const double bend = (now[r2] + next[r2] - 2 * (now[r] + next[r]) + now[i] + next[i]) / 2;
@@ -127,16 +77,23 @@ static void content(const struct gm_problem *problem, double dt, double *means, 
     }
 }
 
-static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
+static const struct gm_form_potential slope_of_phi = {PHI, W};
+static const struct gm_form form = {.dimension = DIMENSION,
+                                    .m = m,
+                                    .k = k,
+                                    .first = U,
+                                    .kept = 1,
+                                    .gradients = gradients,
+                                    .hessians = hessians,
+                                    .potentials = &slope_of_phi,
+                                    .potential_count = 1};
 static const struct gm_dispersive dispersive = {.power = 3,
                                                 .factor = {1, 0},
                                                 .dispersion = dispersion,
                                                 .derivative = true,
                                                 .nonlinear = nonlinear,
-                                                .linearised = linearised,
                                                 .potential = potential,
-                                                .content = content,
-                                                .complete = complete};
+                                                .content = content};
 
 const struct gm_problem gm_problem_kdv = {
     .name = "Korteweg-de Vries",

@@ -12,7 +12,6 @@
 
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/problems.h"
-#include "core/linear/ring/ring.h"
 
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};
@@ -33,58 +32,19 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
     }
 }
 
-/* k (2 |m|^2 f + m^2 conj f) */
-static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
-                       size_t count)
-{
-    const double factor = gm_nls_of(problem)->k;
-    for (size_t i = 0; i < count; i++) {
-        const double re = base[i], im = base[count + i], f_re = f[i], f_im = f[count + i];
-        const double square = factor * (2 * (re * re + im * im)), twice_re = factor * (re * re - im * im),
-                     twice_im = factor * (2 * re * im);
-        g[i] = square * f_re + twice_re * f_re + twice_im * f_im;
-        g[count + i] = square * f_im + twice_im * f_re - twice_re * f_im;
-    }
-}
-
 enum { P, Q, V, W, DIMENSION };
 
-/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme, but that on an even
-   number of points their alternating parts, of -D_x v and -D_x w and the force, are that of v and w. */
-static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
-                     const double *next, struct gm_faces *faces)
+static void hessians(const void *parameters, const double *s, double *hessian, size_t count)
 {
-    (void)dt;
-    const size_t points = problem->line.points;
-    double alternating[2] = {0};
-    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
-        const size_t r = i + 1 < points ? i + 1 : 0;
-        const double at[2] = {base[i], base[points + i]};
-        const double mean[2] = {(now[i] + now[r] + next[i] + next[r]) / 4,
-                                (now[points + i] + now[points + r] + next[points + i] + next[points + r]) /
-                                    4};
-        double force[2];
-        linearised(problem, at, mean, force, 1);
-        for (size_t part = 0; part < 2; part++) {
-            alternating[part] += (i % 2 ? -force[part] : force[part]) / (double)points;
-        }
-    }
-    for (size_t part = 0; part < 2; part++) {
-        const double *f = now + part * points, *g = next + part * points;
-        double *slope = faces->scratch;
-        for (size_t i = 0; i < points; i++) {
-            const size_t r = i + 1 < points ? i + 1 : 0;
-            faces->lower[i * DIMENSION + P + part] = (f[i] + f[r]) / 2;
-            faces->upper[i * DIMENSION + P + part] = (g[i] + g[r]) / 2;
-            slope[i] = (f[r] + g[r] - f[i] - g[i]) / (2 * problem->line.dx);
-        }
-        gm_ring_unaverage(slope, points);
-        for (size_t i = 0; i <= points; i++) {
-            const size_t at = i < points ? i : 0;
-            faces->sides[i * DIMENSION + P + part] = (f[at] + g[at]) / 2;
-            const double free = problem->line.dx / 2 * alternating[part];
-            faces->sides[i * DIMENSION + V + part] = slope[at] + (at % 2 ? -free : free);
-        }
+    const double factor = ((const struct gm_nls *)parameters)->k;
+    memset(hessian, 0, sizeof(double[DIMENSION * DIMENSION]) * count);
+    for (size_t i = 0; i < count; i++) {
+        const double p = s[P * count + i], q = s[Q * count + i], square = factor * (2 * (p * p + q * q));
+        hessian[(P * DIMENSION + P) * count + i] = square + factor * (p * p - q * q);
+        hessian[(Q * DIMENSION + Q) * count + i] = square - factor * (p * p - q * q);
+        hessian[(P * DIMENSION + Q) * count + i] = hessian[(Q * DIMENSION + P) * count + i] =
+            factor * (2 * p * q);
+        hessian[(V * DIMENSION + V) * count + i] = hessian[(W * DIMENSION + W) * count + i] = 1;
     }
 }
 
@@ -94,37 +54,47 @@ static double potential(const struct gm_problem *problem, double re, double im)
     return gm_nls_of(problem)->k * (square * square / 4);
 }
 
-/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is the derivative
-   of g at m/sqrt 3 applied to m, so that the solution itself can be completed as a tangent. */
-static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
-                    const double *next, struct gm_faces *faces, double *residual)
+/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. At the sides v and w follow from cell to cell: D_x v =
+   D_t A_x q - g_p, D_x w = -D_t A_x p - g_q, from A_x v = D_x A_t p and A_x w = D_x A_t q in the first one. */
+static void content(const struct gm_problem *problem, double dt, const double *means, const double *now,
+                    const double *next, double *flux, double *residual)
 {
+    (void)flux;
     const size_t points = problem->line.points;
-    for (size_t i = 0; i < 2 * points; i++) {
-        means[i] /= sqrt(3);
-    }
-    complete(problem, dt, means, now, next, faces);
+    const double dx = problem->line.dx, factor = gm_nls_of(problem)->k;
+    double left[DIMENSION], right[DIMENSION] = {(now[0] + next[0]) / 2, (now[points] + next[points]) / 2};
     for (size_t i = 0; i < points; i++) {
-        const double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
-        const double *left = faces->sides + i * DIMENSION, *right = left + DIMENSION;
-        const double change =
-            (upper[P] - lower[P]) * (upper[P] + lower[P]) + (upper[Q] - lower[Q]) * (upper[Q] + lower[Q]);
-        residual[i] = change / (2 * dt) +
-                      (right[P] * right[W] - right[Q] * right[V] - left[P] * left[W] + left[Q] * left[V]) /
-                          problem->line.dx;
+        const size_t r = i + 1 < points ? i + 1 : 0;
+        const double square = means[i] * means[i] + means[points + i] * means[points + i];
+        double charge = 0;
+        for (size_t part = 0; part < 2; part++) {
+            const double *from = now + part * points, *to = next + part * points,
+                         *o = now + (1 - part) * points;
+            const double lower = (from[i] + from[r]) / 2, upper = (to[i] + to[r]) / 2;
+            const double turned =
+                (next[(1 - part) * points + i] + next[(1 - part) * points + r] - o[i] - o[r]) / 2;
+            const double bend = (part ? -turned : turned) / dt - factor * square * means[part * points + i];
+            left[P + part] = right[P + part];
+            right[P + part] = (from[r] + to[r]) / 2;
+            left[V + part] =
+                i > 0 ? right[V + part] : (right[P + part] - left[P + part]) / dx - dx / 2 * bend;
+            right[V + part] = left[V + part] + dx * bend;
+            charge += (upper - lower) * (upper + lower);
+        }
+        residual[i] =
+            charge / (2 * dt) +
+            (right[P] * right[W] - right[Q] * right[V] - left[P] * left[W] + left[Q] * left[V]) / dx;
     }
 }
 
-static const struct gm_form form = {.dimension = 4, .m = m, .k = k};
+static const struct gm_form form = {
+    .dimension = DIMENSION, .m = m, .k = k, .first = P, .kept = 2, .hessians = hessians};
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
                                                 .dispersion = dispersion,
-                                                .complex_valued = true,
                                                 .nonlinear = nonlinear,
-                                                .linearised = linearised,
                                                 .potential = potential,
-                                                .content = content,
-                                                .complete = complete};
+                                                .content = content};
 
 const struct gm_problem gm_problem_nls = {
     .parameters = &(const struct gm_nls){.k = 1},

@@ -14,7 +14,7 @@
 
 static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
 static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
-const struct gm_form gm_form_of_waves = {.dimension = 3, .m = m, .k = k};
+const struct gm_form gm_form_of_waves = {.dimension = 3, .m = m, .k = k, .kept = 2};
 
 static double potential(const struct gm_problem *problem, double u)
 {

@@ -70,16 +70,10 @@ double gm_frames_number(const struct gm_user_system *system, const double *value
     return otherwise;
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_equation *equation;
-    const double *values;
-};
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_equation *equation = opening->equation;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_equation *equation = opening->formulas;
     const double *values = opening->values;
     const struct gm_user_system *system = equation->system;
     struct gm_problem *problem = opening->problem;
@@ -124,5 +118,5 @@ bool gm_user_equation_open(struct gm_problem *problem, const struct gm_user_equa
 {
     *problem = *problem_of(equation);
     problem->line = *line;
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, equation, values});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, equation, values, NULL});
 }

@@ -97,16 +97,10 @@ static void find_potentials(struct gm_problem *problem, struct own *self)
     }
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_form *form;
-    const double *values;
-};
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_form *form = opening->form;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_form *form = opening->formulas;
     const double *values = opening->values;
     const struct gm_user_system *system = form->system;
     const size_t n = system->n;
@@ -150,7 +144,7 @@ bool gm_user_form_open(struct gm_problem *problem, const struct gm_user_form *fo
                                    .m = 1,
                                    .n = form->system->n * grid->points,
                                    .line = *grid};
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, form, values});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, form, values, NULL});
 }
 
 /* ---- the start ---- */

@@ -159,16 +159,10 @@ static const struct gm_problem *known_potential(const struct gm_user_system *sys
     return sine_gordon ? &gm_problem_sine_gordon : NULL;
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_wave *wave;
-    const double *values;
-};
-
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_wave *wave = opening->wave;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_wave *wave = opening->formulas;
     struct gm_problem *problem = opening->problem;
     const double *values = opening->values;
     const struct gm_user_system *system = wave->system;
@@ -197,7 +191,7 @@ bool gm_user_wave_open(struct gm_problem *problem, const struct gm_user_wave *wa
                                    .m = 1,
                                    .n = gm_wave_size(grid->points),
                                    .line = *grid};
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, wave, values, NULL});
 }
 
 bool gm_user_wave_closes(const struct gm_problem *problem, struct gm_fault *fault)

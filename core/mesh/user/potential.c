@@ -142,13 +142,6 @@ static struct gm_grid1 cells_of(const struct gm_mesh *mesh, size_t count)
     return (struct gm_grid1){.points = count + 1, .dx = mesh->length / (double)count, .first = mesh->first};
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_wave *wave;
-    const double *values;
-    const struct gm_user_mesh *chosen;
-};
-
 /* Sets the numbers of densities so that they suit the start: its largest slope and force, and its total variation. */
 static void weigh(struct gm_arena *arena, struct own *self)
 {
@@ -175,7 +168,8 @@ static void weigh(struct gm_arena *arena, struct own *self)
 }
 
 /* Sets them by the file's line alpha:, or else as the start is, and alpha by its key. */
-static void choose_numbers(struct gm_arena *arena, struct own *self, const struct opening *opening)
+static void choose_numbers(struct gm_arena *arena, struct own *self, const double *values,
+                           const struct gm_user_mesh *chosen)
 {
     const struct gm_user_system *system = self->line.system;
     const struct gm_system_item *item = gm_system_item_of(system, GM_WORD_ALPHA, 0);
@@ -188,19 +182,18 @@ static void choose_numbers(struct gm_arena *arena, struct own *self, const struc
         weigh(arena, self);
     }
     for (size_t i = 0; i < GM_COUNT(given); i++) {
-        gm_arena_need(arena,
-                      !given[i] || gm_user_line_numbers(system, given[i], 1, opening->values, numbers[i]));
+        gm_arena_need(arena, !given[i] || gm_user_line_numbers(system, given[i], 1, values, numbers[i]));
     }
-    if (!isnan(opening->chosen->alpha)) {
-        self->names.alpha = opening->chosen->alpha;
+    if (!isnan(chosen->alpha)) {
+        self->names.alpha = chosen->alpha;
     }
 }
 
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_wave *wave = opening->wave;
-    const struct gm_user_mesh *chosen = opening->chosen;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_wave *wave = opening->formulas;
+    const struct gm_user_mesh *chosen = opening->more;
     const double *values = opening->values, places[] = {chosen->first, chosen->first + chosen->length};
     struct own *self = gm_user_line_take(arena, opening->problem, wave->system, sizeof *self);
     struct gm_mesh_formulas *formulas = &self->formulas;
@@ -241,7 +234,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     };
     self->until = chosen->until;
     self->names = (struct gm_mesh_names){.wave = wave, .values = values};
-    choose_numbers(arena, self, opening);
+    choose_numbers(arena, self, values, chosen);
     gm_arena_keep(arena, formulas, gm_mesh_formulas_close);
     /* a formula that is refused is reported by gm_user_mesh_rests */
     gm_arena_need(arena, gm_mesh_formulas_open(formulas, &self->names, chosen));
@@ -256,7 +249,7 @@ bool gm_user_mesh_open(struct gm_problem *problem, const struct gm_user_wave *wa
                        const struct gm_user_mesh *chosen)
 {
     *problem = (struct gm_problem){.name = "wave equation", .m = 1, .kind = &gm_kind_mesh, .facets = &facets};
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, wave, values, chosen});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, wave, values, chosen});
 }
 
 void gm_user_mesh_between(const struct gm_problem *problem, const double *at, double *velocity, size_t m)

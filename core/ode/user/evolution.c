@@ -448,13 +448,6 @@ static void open_tapes(struct own *self, const double *values)
     }
 }
 
-struct opening {
-    struct gm_problem *problem;
-    const struct gm_user_evolution *evolution;
-    const double *values;
-    enum gm_derivatives space;
-};
-
 static void close_idle(void *idle)
 {
     room_close(atomic_exchange((struct room * _Atomic *)idle, NULL));
@@ -462,21 +455,22 @@ static void close_idle(void *idle)
 
 static void open_problem(struct gm_arena *arena, void *data)
 {
-    const struct opening *opening = data;
-    const struct gm_user_system *system = opening->evolution->system;
+    const struct gm_line_opening *opening = data;
+    const struct gm_user_evolution *evolution = opening->formulas;
+    const struct gm_user_system *system = evolution->system;
     struct gm_problem *problem = opening->problem;
     const size_t parameters = system->velocities - system->parameters;
     struct own *self = gm_user_line_take(arena, problem, system, sizeof *self);
     gm_arena_keep(arena, &self->idle, close_idle);
-    self->evolution = opening->evolution;
+    self->evolution = evolution;
     self->line = problem->line;
-    self->space = opening->space;
+    self->space = *(const enum gm_derivatives *)opening->more;
     self->fields = system->n;
     self->inputs = self->fields * ORDERS + 2;
     problem->n = self->fields * self->line.points;
     problem->facets = &self->facets;
-    gm_user_line_open(&self->along, opening->evolution->formulas.start, self->fields,
-                      opening->evolution->formulas.exact, opening->values);
+    gm_user_line_open(&self->along, evolution->formulas.start, self->fields, evolution->formulas.exact,
+                      opening->values);
     /* the values of all variables in their new order */
     double *values = gm_arena_take(arena, self->inputs + parameters, sizeof *values);
     memcpy(values + self->inputs, opening->values + system->parameters, parameters * sizeof *values);
@@ -501,7 +495,7 @@ bool gm_user_evolution_open(struct gm_problem *problem, const struct gm_user_evo
                             const double *values, const struct gm_grid1 *grid, enum gm_derivatives space)
 {
     *problem = (struct gm_problem){.name = "evolution", .kind = &gm_kind_ode, .m = 1, .line = *grid};
-    return gm_user_line_problem(problem, open_problem, &(struct opening){problem, evolution, values, space});
+    return gm_user_line_problem(open_problem, &(struct gm_line_opening){problem, evolution, values, &space});
 }
 
 /* ---- what is asked of it ---- */

@@ -29,6 +29,7 @@
 #include "core/field/families/boxes/any_form.h"
 
 #include <complex.h>
+#include <stdint.h>
 
 #include "core/arena.h"
 #include "core/field/families/family.h"
@@ -57,6 +58,7 @@ struct factors {
 struct work {
     const struct gm_problem *problem;
     const struct gm_collocation_tableau *tableau;
+    bool runs;                    /* else it has tangents alone */
     size_t points, d, r, rank;    /* rank: of K */
     size_t state;                 /* components that the state has at the nodes: all, or u of a wave */
     size_t stages, sides;         /* numbers of a cell: d r r and r rank */
@@ -74,6 +76,7 @@ struct work {
     double *past_z[PAST], *past_y[PAST]; /* z and y of previous steps, the last one first */
     double *first_z, *first_y;           /* z and y at the start of an iteration */
     double *gradient, *hessian;          /* [component][stage]; [row][column][stage] */
+    double *linear, linear_dt;           /* the equations of a cell but for S'', for this dt; 0: not made */
     double *right;          /* [row]: what is left of the equations of a cell, then what changes */
     double _Complex *waves; /* r * points */
     struct gm_fourier *fourier;
@@ -86,10 +89,13 @@ struct work {
 
 /* ---- the workspace ---- */
 
-/* Returns NULL when out of memory; leaves the body while a workspace is opened. */
+/* Takes zeros that begin on a line of the cache: rows of all cells are added to each other. Returns NULL when out of memory;
+   leaves the body while a workspace is opened. */
 static double *take(const struct work *work, size_t count)
 {
-    return gm_arena_take(work->arena, count, sizeof(double));
+    enum { LINE = 64 };
+    char *block = gm_arena_take(work->arena, count * sizeof(double) + LINE, 1);
+    return block ? (double *)(void *)(block + (LINE - (uintptr_t)block % LINE)) : NULL;
 }
 
 static bool open_factors(const struct work *work, struct factors *factors, bool shared)
@@ -217,31 +223,42 @@ static void close_fourier(void *fourier)
     gm_fourier_close(fourier);
 }
 
-static void open_arrays(struct gm_arena *arena, void *data)
+/* Takes the memory of steps; tangents do not need it. */
+static void open_steps(struct work *work)
 {
-    struct work *work = data;
-    const size_t points = work->points, level = work->d * work->r * points;
-    const size_t stages = work->stages * points, sides = work->sides * points;
-    work->low = take(work, level);
-    work->high = take(work, level);
-    work->z = take(work, stages);
+    const size_t points = work->points, stages = work->stages * points, sides = work->sides * points;
     work->first_z = take(work, stages);
-    work->y = take(work, sides);
     work->first_y = take(work, sides);
     for (size_t k = 0; k < PAST; k++) {
         work->past_z[k] = take(work, stages);
         work->past_y[k] = take(work, sides);
     }
-    work->gradient = take(work, stages);
-    work->hessian = take(work, work->d * stages);
-    work->right = take(work, stages + sides);
-    work->scratch = take(work, sides + 2 * points);
-    work->waves = gm_arena_take(arena, work->r * points, sizeof *work->waves);
-    work->fourier = gm_arena_keep(arena, gm_fourier_open(points), close_fourier);
+    work->waves = gm_arena_take(work->arena, work->r * points, sizeof *work->waves);
+    work->fourier = gm_arena_keep(work->arena, gm_fourier_open(points), close_fourier);
     /* a run needs these, or its numbers would depend on memory; the factors of Newton's method are many */
     if (gm_field_of(work->problem)->form->potential_count == 0 &&
         !open_factors(work, &work->constant, true)) {
-        gm_arena_leave(arena);
+        gm_arena_leave(work->arena);
+    }
+}
+
+static void open_arrays(struct gm_arena *arena, void *data)
+{
+    struct work *work = data;
+    const size_t points = work->points, level = work->d * work->r * points;
+    const size_t stages = work->stages * points, sides = work->sides * points;
+    (void)arena;
+    work->low = take(work, level);
+    work->high = take(work, level);
+    work->z = take(work, stages);
+    work->y = take(work, sides);
+    work->gradient = take(work, stages);
+    work->hessian = take(work, work->d * stages);
+    work->right = take(work, stages + sides);
+    work->linear = take(work, (work->stages + work->sides) * (work->stages + 2 * work->sides));
+    work->scratch = take(work, sides + 2 * points);
+    if (work->runs) {
+        open_steps(work);
     }
 }
 
@@ -258,6 +275,7 @@ void *gm_any_form_open(const struct gm_problem *problem, const struct gm_scheme 
     work->arena = arena;
     work->problem = problem;
     work->tableau = scheme->coefficients;
+    work->runs = scheme->family != NULL;
     work->points = problem->line.points;
     work->d = form->dimension;
     work->state = field->wave ? 1 : work->d;
@@ -332,11 +350,6 @@ static const double *stage_of(const struct work *work, const double *z, size_t c
     return z + ((c * work->r + j) * work->r + m) * work->points;
 }
 
-static double *row_of(const struct work *work, size_t c, size_t j, size_t m)
-{
-    return work->right + ((c * work->r + j) * work->r + m) * work->points;
-}
-
 /* The factor that makes equations of sides as large as the equations of stages. */
 static double weight_of_sides(const struct work *work)
 {
@@ -352,59 +365,15 @@ static double jump_of(const struct work *work, size_t a)
     return sum;
 }
 
-/* right := grad S - M T - K X, and what closes the sides; with work->gradient as the gradient. */
-static void find_right(struct work *work, double dt, bool tangent)
-{
-    const struct gm_form *form = gm_field_of(work->problem)->form;
-    const size_t points = work->points, d = work->d, r = work->r;
-    const double dx = work->problem->line.dx;
-    memcpy(work->right, work->gradient, work->stages * points * sizeof(double));
-    for (size_t c = 0; c < d; c++) {
-        for (size_t row = 0; row < r * r; row++) {
-            const size_t j = row / r, m = row % r;
-            double *to = row_of(work, c, j, m);
-            for (size_t e = 0; e < d; e++) {
-                const double in_time = form->m[c * d + e] / dt, in_space = form->k[c * d + e] / dx;
-                for (size_t k = 0; k < r && in_time != 0; k++) {
-                    add(to, stage_of(work, work->z, e, k, m), -in_time * work->inverse[j][k], points);
-                }
-                if (in_time != 0) {
-                    add(to, work->low + (e * r + m) * points, in_time * work->sums[j], points);
-                }
-                for (size_t l = 0; l < r && in_space != 0; l++) {
-                    add(to, stage_of(work, work->z, e, j, l), -in_space * work->inverse[m][l], points);
-                }
-            }
-            for (size_t a = 0; a < work->rank; a++) {
-                if (work->slopes[c][a] != 0) {
-                    add(to, work->y + (j * work->rank + a) * points, work->slopes[c][a] * work->sums[m] / dx,
-                        points);
-                }
-            }
-        }
-    }
-    const double weight = weight_of_sides(work);
-    for (size_t j = 0; j < r; j++) {
-        for (size_t a = 0; a < work->rank; a++) {
-            const double *y = work->y + (j * work->rank + a) * points;
-            double *to = work->right + (work->stages + j * work->rank + a) * points;
-            memset(to, 0, points * sizeof *to);
-            add_next(to, y, -weight, tangent ? 0 : jump_of(work, a), points);
-            add(to, y, weight * work->rest, points);
-            for (size_t c = 0; c < d; c++) {
-                for (size_t l = 0; l < r && work->basis[c][a] != 0; l++) {
-                    add(to, stage_of(work, work->z, c, j, l), weight * work->weights[l] * work->basis[c][a],
-                        points);
-                }
-            }
-        }
-    }
-}
-
 /* The matrix of a cell's equations but for S'', rows as those of `right`, columns its stages, the left y, the
    right y. */
-static void cell_matrix(const struct work *work, double dt, double *matrix)
+static const double *find_linear(struct work *work, double dt)
 {
+    double *const matrix = work->linear;
+    if (work->linear_dt == dt) {
+        return matrix;
+    }
+    work->linear_dt = dt;
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t d = work->d, r = work->r, q = r * r, rank = work->rank, stages = work->stages;
     const size_t columns = stages + 2 * work->sides;
@@ -435,6 +404,37 @@ static void cell_matrix(const struct work *work, double dt, double *matrix)
                     row[c * q + j * r + l] = -weight * work->weights[l] * work->basis[c][a];
                 }
             }
+        }
+    }
+    return matrix;
+}
+
+/* right := grad S - M T - K X, and what closes the sides; with work->gradient as the gradient. */
+static void find_right(struct work *work, double dt, bool tangent)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t points = work->points, d = work->d, r = work->r, stages = work->stages, sides = work->sides;
+    const size_t rows = stages + sides, columns = rows + sides;
+    const double *matrix = find_linear(work, dt);
+    memcpy(work->right, work->gradient, stages * points * sizeof(double));
+    memset(work->right + stages * points, 0, sides * points * sizeof(double));
+    for (size_t at = 0; at < stages * d; at++) {
+        const size_t row = at / d, e = at % d, j = row / r % r, m = row % r;
+        const double in_time = form->m[row / (r * r) * d + e] / dt;
+        if (in_time != 0) {
+            add(work->right + row * points, work->low + (e * r + m) * points, in_time * work->sums[j],
+                points);
+        }
+    }
+    for (size_t at = 0; at < rows * columns; at++) {
+        const size_t column = at % columns, side = column < stages ? 0 : (column - stages) % sides;
+        double *to = work->right + at / columns * points;
+        if (matrix[at] != 0 && column < rows) {
+            add(to, column < stages ? work->z + column * points : work->y + side * points, -matrix[at],
+                points);
+        } else if (matrix[at] != 0) {
+            add_next(to, work->y + side * points, -matrix[at], tangent ? 0 : jump_of(work, side % work->rank),
+                     points);
         }
     }
 }
@@ -527,18 +527,14 @@ static bool factor(struct work *work, struct factors *factors, bool shared, doub
     if (!open_factors(work, factors, shared)) {
         return false;
     }
-    /* the last cell holds the matrix that all cells share until its own turn */
-    double *const last = factors->cells + (shared ? 0 : work->points - 1) * rows * columns;
-    cell_matrix(work, dt, last);
+    const double *linear = find_linear(work, dt);
     gm_ring_band_clear(&factors->sides);
     factors->good = true;
     for (size_t i = 0; i < work->points && factors->good; i++) {
         const size_t place = shared ? 0 : i;
         double *matrix = factors->cells + place * rows * columns;
         if (!shared || i == 0) {
-            if (matrix != last) {
-                memcpy(matrix, last, rows * columns * sizeof *last);
-            }
+            memcpy(matrix, linear, rows * columns * sizeof *linear);
             subtract_hessian(work, work->hessian + place, matrix);
             if (!shared && i + 1 == work->points) {
                 hold_potentials(work, matrix);
@@ -821,25 +817,12 @@ static bool linearise(struct work *work, double dt)
 
 static void advance_tangent(struct work *work, double dt)
 {
-    const size_t d = work->d, count = work->r * work->r * work->points;
     memset(work->z, 0, work->stages * work->points * sizeof(double));
     memset(work->y, 0, work->sides * work->points * sizeof(double));
-    for (int again = 0; again < 2; again++) {
-        /* solved again for what rounding leaves */
-        for (size_t c = 0; c < d; c++) {
-            double *gradient = work->gradient + c * count;
-            memset(gradient, 0, count * sizeof *gradient);
-            for (size_t e = 0; e < d; e++) {
-                const double *bend = work->hessian + (c * d + e) * count, *z = work->z + e * count;
-                for (size_t i = 0; i < count; i++) {
-                    gradient[i] += bend[i] * z[i];
-                }
-            }
-        }
-        find_right(work, dt, true);
-        solve_each(work, &work->newton);
-        add_changes(work);
-    }
+    memset(work->gradient, 0, work->stages * work->points * sizeof(double));
+    find_right(work, dt, true);
+    solve_each(work, &work->newton);
+    add_changes(work);
     find_high(work);
 }
 
@@ -866,6 +849,7 @@ static void find_faces(const struct work *work, struct gm_faces *faces)
         for (size_t j = 0; j < r; j++) {
             double *side = faces->sides + (i * r + j) * d;
             for (size_t c = 0; c < d; c++) {
+                side[c] = 0;
                 for (size_t a = 0; a < work->rank; a++) {
                     side[c] +=
                         work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
@@ -1115,17 +1099,19 @@ static size_t recall(struct work *work, const double *memory)
 /* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them:
    from values at the nodes they would differ by an error of the grid, which would change its sign at every
    step. */
-static void integrate_potentials(struct work *work)
+static void integrate_potentials(struct work *work, double *level)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const struct gm_collocation_tableau *tableau = work->tableau;
     const size_t points = work->points, r = work->r, d = work->d;
     const double dx = work->problem->line.dx;
-    find_gradients(work, work->low, work->gradient, r * points);
+    if (form->potential_count > 0) {
+        find_gradients(work, level, work->gradient, r * points);
+    }
     for (size_t p = 0; p < form->potential_count; p++) {
         const size_t component = form->potentials[p].component, row = form->potentials[p].row;
         const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
-        double *to = work->low + component * r * points, left = 0;
+        double *to = level + component * r * points, left = 0;
         for (size_t k = 0; k < work->rank; k++) {
             left += work->basis[component][k] * work->y[k * points];
         }
@@ -1285,7 +1271,7 @@ enum gm_status gm_any_form_start(const struct gm_task *task)
         return GM_OK;
     }
     to_stages(work, task->y, false, work->low);
-    integrate_potentials(work);
+    integrate_potentials(work, work->low);
     if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
         settle(work, task->dt);
     }
@@ -1450,6 +1436,50 @@ double gm_any_form_law(const struct gm_law *law)
     const struct gm_lattice cells = {work->points,          work->r, work->r, tableau->b, tableau->b,
                                      law->problem->line.dx, law->dt};
     return gm_lattice_law(law, &cells, advance_tangents);
+}
+
+/* ---- tangents of boxes of one stage whose state is a part of s ---- */
+
+struct gm_box_tangents {
+    struct work work; /* first */
+};
+
+struct gm_box_tangents *gm_box_linearise(const struct gm_law *law, const double *cells)
+{
+    static const struct gm_scheme box = {.coefficients = &midpoint}; /* without a family it never runs */
+    struct work *work = gm_arena_keep(law->arena, gm_any_form_open(law->problem, &box), gm_any_form_close);
+    const struct gm_form *form = gm_field_of(law->problem)->form;
+    memcpy(work->z + form->first * work->points, cells, form->kept * work->points * sizeof *cells);
+    if (!linearise(work, law->dt)) {
+        gm_arena_leave(law->arena);
+    }
+    return (struct gm_box_tangents *)work;
+}
+
+/* The means of nodes in the cells, with the potentials that follow. */
+static void find_level(struct work *work, const double *nodes, double *level)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    memset(level, 0, of_level(work) * sizeof *level);
+    for (size_t part = 0; part < form->kept; part++) {
+        double *to = level + (form->first + part) * work->points;
+        add(to, nodes + part * work->points, 0.5, work->points);
+        add_next(to, nodes + part * work->points, 0.5, 0, work->points);
+    }
+    integrate_potentials(work, level);
+}
+
+void gm_box_advance_tangent(struct gm_box_tangents *box, double dt, const double *now, const double *next,
+                            struct gm_faces *faces)
+{
+    struct work *work = &box->work;
+    memset(work->y, 0, work->sides * work->points * sizeof *work->y);
+    find_level(work, now, work->low);
+    advance_tangent(work, dt);
+    if (next) {
+        find_level(work, next, work->high);
+    }
+    find_faces(work, faces);
 }
 
 #define OF_ANY_FORM .family = &gm_family_any_form, .needs = GM_NEEDS_ALL

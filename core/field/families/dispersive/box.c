@@ -27,9 +27,10 @@ static double *array(const struct gm_two_step_work *work, size_t which)
 
 enum { NOW, NEXT, RIGHT, MEAN, FORCE, GUESS, SLOPES, ARRAYS = SLOPES + 2 };
 
-static size_t parts_of(const struct gm_dispersive *equation)
+/* 1 of a real field, 2 of a complex one */
+static size_t parts_of(const struct gm_problem *problem)
 {
-    return equation->complex_valued ? 2 : 1;
+    return gm_field_of(problem)->form->kept;
 }
 
 void *gm_dispersive_open(const struct gm_problem *problem)
@@ -40,7 +41,7 @@ void *gm_dispersive_open(const struct gm_problem *problem)
     /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
        on both sides, or one point more on the right. */
     if (!work ||
-        !gm_ring_newton_open(&work->newton, points, parts_of(equation), (size_t)equation->power - 1)) {
+        !gm_ring_newton_open(&work->newton, points, parts_of(problem), (size_t)equation->power - 1)) {
         free(work);
         return NULL;
     }
@@ -81,11 +82,10 @@ struct equations {
     const struct gm_two_step_work *work;
     const struct gm_problem *problem;
     double mean[2], difference; /* a/(2^p dt), real and imaginary part, and b/(2 dx^p) */
-    const double *base; /* means of a solution in the cells: the scheme linearised there; NULL: the scheme */
 };
 
 static struct equations equations_of(const struct gm_two_step_work *work, const struct gm_problem *problem,
-                                     double dt, const double *base)
+                                     double dt)
 {
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const double half = gm_pow(0.5, equation->power) / dt;
@@ -94,7 +94,6 @@ static struct equations equations_of(const struct gm_two_step_work *work, const 
         .problem = problem,
         .mean = {half * equation->factor[0], half * equation->factor[1]},
         .difference = equation->dispersion(problem) / (2 * gm_pow(problem->line.dx, equation->power)),
-        .base = base,
     };
 }
 
@@ -108,12 +107,7 @@ static void explicit_part(const struct equations *equations, const double *next)
     memset(mean, 0, 2 * points * sizeof *mean);
     add_power(mean, array(work, NOW), points, 1, 1, 0.25, 0);
     add_power(mean, next, points, 1, 1, 0.25, 0);
-    if (equations->base) {
-        gm_field_of(problem)->dispersive->linearised(problem, equations->base, mean, force, points);
-    } else {
-        gm_field_of(problem)->dispersive->nonlinear(problem, mean, mean + points, force, force + points,
-                                                    points);
-    }
+    gm_field_of(problem)->dispersive->nonlinear(problem, mean, mean + points, force, force + points, points);
     memcpy(mean, array(work, RIGHT), 2 * points * sizeof *mean);
     if (gm_field_of(problem)->dispersive->derivative) {
         /* A D: (f_{i+2} - f_i) / (2 dx) */
@@ -131,7 +125,7 @@ static void residual_at(void *context, const double *u, double *residual)
     const struct equations *equations = context;
     const struct gm_two_step_work *work = equations->work;
     const struct gm_dispersive *equation = gm_field_of(equations->problem)->dispersive;
-    const size_t points = work->points, parts = parts_of(equation);
+    const size_t points = work->points, parts = parts_of(equations->problem);
     double *next = array(work, NEXT), *rest = array(work, MEAN);
     memcpy(next, u, parts * points * sizeof *u);
     memset(next + parts * points, 0, (2 - parts) * points * sizeof *u);
@@ -149,8 +143,7 @@ static void residual_at(void *context, const double *u, double *residual)
 static void add_slope(const struct equations *equations, struct gm_ring_band *matrix, size_t i, size_t k,
                       double weight, double *const slopes[2])
 {
-    const size_t points = equations->work->points,
-                 parts = parts_of(gm_field_of(equations->problem)->dispersive);
+    const size_t points = equations->work->points, parts = parts_of(equations->problem);
     const size_t cell = (i + k) % points, row = i + 1 < points ? i + 1 : 0;
     for (size_t part = 0; part < parts; part++) {
         for (size_t column = 0; column < parts; column++) {
@@ -167,23 +160,23 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     const struct gm_two_step_work *work = equations->work;
     const struct gm_problem *problem = equations->problem;
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
-    const size_t points = work->points, parts = parts_of(equation);
+    const size_t points = work->points, parts = parts_of(problem);
     const int p = equation->power;
-    double *at = array(work, MEAN), *unit = array(work, FORCE);
-    double *const slopes[2] = {array(work, SLOPES), array(work, SLOPES + 1)};
-    if (equations->base) {
-        memcpy(at, equations->base, 2 * points * sizeof *at);
-    } else {
-        memset(at, 0, 2 * points * sizeof *at);
-        add_power(at, array(work, NOW), points, 1, 1, 0.25, 0);
-        add_power(at, array(work, NEXT), points, 1, 1, 0.25, 0);
-    }
-    for (size_t part = 0; part < parts; part++) {
-        memset(unit, 0, 2 * points * sizeof *unit);
-        for (size_t i = 0; i < points; i++) {
-            unit[part * points + i] = 1;
+    const struct gm_form *form = gm_field_of(problem)->form;
+    double *at = array(work, MEAN), *const slopes[2] = {array(work, SLOPES), array(work, SLOPES + 1)};
+    memset(at, 0, 2 * points * sizeof *at);
+    add_power(at, array(work, NOW), points, 1, 1, 0.25, 0);
+    add_power(at, array(work, NEXT), points, 1, 1, 0.25, 0);
+    for (size_t i = 0; i < points; i++) {
+        double s[GM_LARGEST_FORM] = {0}, hessian[GM_LARGEST_FORM * GM_LARGEST_FORM];
+        for (size_t part = 0; part < parts; part++) {
+            s[form->first + part] = at[part * points + i];
         }
-        equation->linearised(problem, at, unit, slopes[part], points);
+        form->hessians(problem->parameters, s, hessian, 1);
+        for (size_t part = 0; part < parts * parts; part++) {
+            slopes[part % parts][part / parts * points + i] =
+                hessian[(form->first + part / parts) * form->dimension + form->first + part % parts];
+        }
     }
     for (size_t i = 0; i < points; i++) {
         const size_t row = i + 1 < points ? i + 1 : 0;
@@ -209,16 +202,15 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     }
 }
 
-/* One step from NOW to NEXT; with `base`, means of a solution in the cells, of the linearised scheme. */
+/* One step from NOW to NEXT. */
 static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_problem *problem,
-                                const struct gm_ring_roots *ring, double dt, const double *base,
-                                struct gm_progress *progress)
+                                const struct gm_ring_roots *ring, double dt, struct gm_progress *progress)
 {
     enum { MOST = 40 }; /* Newton's method costs about 25 of them for a real field, 80 for a complex one */
     const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
     const size_t points = work->points, count = 2 * points;
     const int p = equation->power;
-    struct equations self = equations_of(work, problem, dt, base);
+    struct equations self = equations_of(work, problem, dt);
     double *now = array(work, NOW), *next = array(work, NEXT), *right = array(work, RIGHT);
     double *mean = array(work, MEAN);
     memset(right, 0, count * sizeof *right);
@@ -249,7 +241,7 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
             return GM_OK;
         }
     }
-    const size_t size = parts_of(equation) * points * sizeof *next;
+    const size_t size = parts_of(problem) * points * sizeof *next;
     const struct gm_ring_equations equations = {&self, residual_at, jacobian};
     double *guess = array(work, GUESS);
     memcpy(guess, next, size);
@@ -268,29 +260,10 @@ static bool make_ring(struct gm_ring_roots *ring, const struct gm_problem *probl
                               equation->dispersion(problem) / 2, problem->line.dx);
 }
 
-/* One step of the linearised scheme: the tangent at the next level, from the tangent at the current one,
-   both as real parts, then imaginary ones; `base` holds the means of the solution in the cells between the
-   two levels, likewise. */
-static enum gm_status tangent_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                   const double *base, const double *now, double *next)
-{
-    const size_t size = 2 * work->points * sizeof(double);
-    struct gm_ring_roots ring;
-    struct gm_progress progress = {.status = GM_OK};
-    if (!make_ring(&ring, problem, dt)) {
-        return GM_NO_CONVERGENCE;
-    }
-    memcpy(array(work, NOW), now, size);
-    const enum gm_status status = make_step(work, problem, &ring, dt, base, &progress);
-    memcpy(next, array(work, NEXT), size);
-    return status;
-}
-
 struct gm_progress gm_dispersive_advance(const struct gm_task *task)
 {
     struct gm_two_step_work *work = task->workspace;
-    const struct gm_dispersive *equation = gm_field_of(task->problem)->dispersive;
-    const size_t points = work->points, size = points * sizeof(double);
+    const size_t points = work->points, size = points * sizeof(double), parts = parts_of(task->problem);
     struct gm_progress progress = {.status = GM_OK};
     double *now = array(work, NOW), *next = array(work, NEXT);
     struct gm_ring_roots ring;
@@ -298,23 +271,17 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
         progress.status = GM_NO_CONVERGENCE;
         return progress;
     }
-    memcpy(next, task->y, size);
-    memset(next + points, 0, size);
-    if (equation->complex_valued) {
-        memcpy(next + points, task->y + points, size);
-    }
+    memset(next, 0, 2 * size);
+    memcpy(next, task->y, parts * size);
     for (int64_t k = 0; k < task->steps; k++) {
         memcpy(now, next, 2 * size);
-        progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
-        if (!equation->complex_valued) {
-            /* the imaginary part is rounding */
-            memset(next + points, 0, size);
-        }
+        progress.status = make_step(work, task->problem, &ring, task->dt, &progress);
+        memset(next + parts * points, 0, (2 - parts) * size); /* of a real field it is rounding */
         if (!gm_field_stepped(task, &progress, next, 2 * points)) {
             return progress;
         }
     }
-    if (equation->complex_valued) {
+    if (parts == 2) {
         memcpy(task->out, next, 2 * size);
     } else {
         gm_wave_write(task, next, now);
@@ -322,81 +289,58 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     return progress;
 }
 
-/* ---- its multisymplectic law ----
+/* ---- its laws ---- */
 
-   Two tangents are advanced by a step, and the variables that elimination left out follow from the box equations that hold
-   them (gm_dispersive). */
-
-/* A solution, real parts and then imaginary ones. */
+/* A solution, real parts and then imaginary ones: the level of the state, the next, and the means in the cells between. */
 struct base {
-    const struct gm_law *law;
-    double *now, *next, *cells; /* the means are those of the cells between both levels */
+    double *now, *next, *cells;
 };
 
-static void means_of_cells(const struct base *base)
-{
-    const size_t points = base->law->problem->line.points;
-    for (size_t part = 0; part < 2; part++) {
-        const double *now = base->now + part * points, *next = base->next + part * points;
-        for (size_t i = 0; i < points; i++) {
-            const size_t r = i + 1 < points ? i + 1 : 0;
-            base->cells[part * points + i] = (now[i] + now[r] + next[i] + next[r]) / 4;
-        }
-    }
-}
-
-/* The level of the state and the next, with the means between. */
 static struct base base_of(const struct gm_law *law)
 {
     const size_t points = law->problem->line.points, size = 2 * points,
-                 field = parts_of(gm_field_of(law->problem)->dispersive) * points * sizeof(double);
+                 field = parts_of(law->problem) * points * sizeof(double);
     double *now = gm_arena_take(law->arena, 3 * size + law->problem->n, sizeof *now), *after = now + 3 * size;
-    const struct base base = {law, now, now + size, now + 2 * size};
+    const struct base base = {now, now + size, now + 2 * size};
     if (!gm_law_step(law, 1, law->y, NULL, after, NULL)) {
         gm_arena_leave(law->arena);
     }
     memcpy(now, law->y, field);
     memcpy(base.next, after, field);
-    means_of_cells(&base);
+    add_power(base.cells, now, points, 1, 1, 0.25, 0);
+    add_power(base.cells, base.next, points, 1, 1, 0.25, 0);
     return base;
 }
 
 static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
-    const struct gm_problem *problem = law->problem;
-    const size_t points = problem->line.points, field = parts_of(gm_field_of(problem)->dispersive) * points;
+    const size_t points = law->problem->line.points, field = parts_of(law->problem) * points;
     const struct base base = base_of(law);
     double *now = gm_arena_take(law->arena, 4 * points + 2, sizeof *now), *next = now + 2 * points + 1;
+    struct gm_box_tangents *box = gm_box_linearise(law, base.cells);
     for (size_t k = 0; k < 2; k++) {
         for (size_t at = 0; at < field; at += points) {
             gm_tangent_start(now + at, points, 2 + (double)k, 0.3 + 0.4 * (double)k + (double)(at / points));
         }
         if (law->by_differences) {
             gm_law_differentiate(law, law->y, NULL, now, next);
-        } else if (tangent_step(law->work, problem, law->dt, base.cells, now, next) != GM_OK) {
-            gm_arena_leave(law->arena);
         }
-        gm_field_of(problem)->dispersive->complete(problem, law->dt, base.cells, now, next, &faces[k]);
+        gm_box_advance_tangent(box, law->dt, now, law->by_differences ? next : NULL, &faces[k]);
     }
-}
-
-static struct gm_lattice cells_of(const struct gm_law *law)
-{
-    static const double one = 1;
-    return (struct gm_lattice){law->problem->line.points, 1, 1, &one, &one, law->problem->line.dx, law->dt};
 }
 
 double gm_dispersive_form(const struct gm_law *law)
 {
-    const struct gm_lattice cells = cells_of(law);
+    static const double one = 1;
+    const struct gm_lattice cells = {law->problem->line.points, 1,      1, &one, &one,
+                                     law->problem->line.dx,     law->dt};
     return gm_lattice_law(law, &cells, advance_tangents);
 }
 
 void gm_dispersive_content(const struct gm_law *law, void *residual)
 {
     const struct base base = base_of(law);
-    const struct gm_lattice cells = cells_of(law);
-    struct gm_faces faces = gm_faces_of(law, &cells);
     gm_field_of(law->problem)
-        ->dispersive->content(law->problem, law->dt, base.cells, base.now, base.next, &faces, residual);
+        ->dispersive->content(law->problem, law->dt, base.cells, base.now, base.next,
+                              gm_arena_take(law->arena, law->problem->line.points, sizeof(double)), residual);
 }

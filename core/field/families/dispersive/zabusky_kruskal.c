@@ -7,36 +7,20 @@
 #include "core/field/families/two_step.h"
 #include "core/field/problems/problems.h"
 
-/* 2 u_t at node i */
-static double twice_rate(const struct gm_problem *problem, const double *u, size_t i)
+/* next = base + step u_t */
+static void add_rate(struct gm_two_step_work *work, const struct gm_problem *problem, const double *base,
+                     double step)
 {
-    const size_t n = problem->line.points;
-    const double dx = problem->line.dx;
-    const double l2 = u[(i + 2 * n - 2) % n], l = u[(i + n - 1) % n], r = u[(i + 1) % n], r2 = u[(i + 2) % n];
-    return -gm_kdv_of(problem)->eta / (3 * dx) * (r + u[i] + l) * (r - l) -
-           gm_kdv_of(problem)->mu / (dx * dx * dx) * (r2 - 2 * r + 2 * l - l2);
+    const double centred = step / (2 * problem->line.dx);
+    gm_kdv_add_terms(work->level[1], base, work->level[2], work->points, 0,
+                     centred * gm_kdv_of(problem)->eta / 3,
+                     centred * gm_kdv_of(problem)->mu / (problem->line.dx * problem->line.dx));
 }
 
 static enum gm_status step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                            struct gm_progress *progress)
 {
-    const double *past = work->level[0], *now = work->level[1];
-    double *next = work->level[2];
-    const double dx = problem->line.dx;
-    const double convection = gm_kdv_of(problem)->eta * dt / (3 * dx),
-                 third = gm_kdv_of(problem)->mu * dt / (dx * dx * dx);
-    for (size_t i = 2; i + 2 < work->points; i++) {
-        const double l = now[i - 1], r = now[i + 1];
-        next[i] = past[i] - convection * (r + now[i] + l) * (r - l) -
-                  third * (now[i + 2] - 2 * r + 2 * l - now[i - 2]);
-    }
-    for (size_t i = 0; i < work->points; i++) {
-        if (i < 2 || i + 2 >= work->points) {
-            next[i] = past[i] + dt * twice_rate(problem, now, i);
-        } else {
-            i = work->points - 3;
-        }
-    }
+    add_rate(work, problem, work->level[0], 2 * dt);
     progress->evaluations++;
     return GM_OK;
 }
@@ -45,11 +29,7 @@ static enum gm_status step(struct gm_two_step_work *work, const struct gm_proble
 static void start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap)
 {
     (void)gap;
-    const double *now = work->level[1];
-    double *next = work->level[2];
-    for (size_t i = 0; i < work->points; i++) {
-        next[i] = now[i] + dt / 2 * twice_rate(problem, now, i);
-    }
+    add_rate(work, problem, work->level[1], dt);
 }
 
 static const struct gm_two_step_row row = {.step = step, .start = start, .law = GM_LAW_NONE};

@@ -149,7 +149,7 @@ bool gm_local_laws(const struct gm_problem *problem, const struct gm_scheme *sch
     if (field->wave) {
         return law_of(scheme) == GM_LAW_NODES && gm_law_measure(&of, measure_nodes, &local);
     }
-    const bool all = field->form->hessians != NULL, content = law == GM_LAW_OF_CONTENT;
+    const bool all = gm_form_is_state(field->form), content = law == GM_LAW_OF_CONTENT;
     if (all ? content || !is_box_of_all(scheme) : scheme->family != &gm_family_preissmann) {
         return false;
     }
@@ -161,8 +161,7 @@ bool gm_local_laws(const struct gm_problem *problem, const struct gm_scheme *sch
     if (made && all) {
         measure_cells(&local, &trial, y, next, field->form->dimension, beyond_of_form);
     } else if (made) {
-        measure_cells(&local, &trial, y, next, field->dispersive->complex_valued ? 2 : 1,
-                      beyond_of_dispersive);
+        measure_cells(&local, &trial, y, next, field->form->kept, beyond_of_dispersive);
     }
     free(next);
     return made;

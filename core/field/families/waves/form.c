@@ -3,10 +3,7 @@
    schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
        Euler box   v = D_t^- u,   w = D_x^- u
        midpoint    w = D_0 u
-       box         A_x W = D_x A_t u                           W = A_t w, at the sides of the cells
-                   A_t V = D_t A_x u   in the first row        V = A_x v, at the levels
-                   D_t V = D_x W - V'' u   in both rows
-   In the box V at the last level is right only if the step was one of the box. */
+   The box has the tangents of all components (gm_box_linearise). */
 #include "core/field/families/waves/form.h"
 
 #include <math.h>
@@ -14,7 +11,6 @@
 
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
-#include "core/linear/ring/ring.h"
 
 /* Makes a step to get three levels: the state holds only two. */
 struct gm_levels gm_levels_of(const struct gm_law *law)
@@ -45,7 +41,6 @@ struct tangent {
 struct base {
     const struct gm_law *law;
     struct gm_levels levels;
-    double *earlier, *later; /* V'' in the cells of both rows */
 };
 
 static size_t left_of(size_t i, size_t points)
@@ -96,51 +91,6 @@ static void linearised_centred(const struct base *base, const struct tangent *a)
     }
 }
 
-/* The linearised nine-point scheme at node i: A_x' D_t A_x and D_x' A_t D_x of three levels, and V'' in four
-   cells. */
-static double nine_points(const struct base *base, const struct tangent *a, size_t i)
-{
-    const size_t points = base->law->problem->line.points, l = left_of(i, points), r = right_of(i, points);
-    const double dt = base->law->dt, dx = base->law->problem->line.dx;
-    const double *p = a->past, *n = a->now, *f = a->next;
-    const double in_time = f[r] + 2 * f[i] + f[l] - 2 * (n[r] + 2 * n[i] + n[l]) + p[r] + 2 * p[i] + p[l];
-    const double in_space = f[r] - 2 * f[i] + f[l] + 2 * (n[r] - 2 * n[i] + n[l]) + p[r] - 2 * p[i] + p[l];
-    const double force =
-        base->later[i] * (n[i] + n[r] + f[i] + f[r]) + base->later[l] * (n[i] + n[l] + f[i] + f[l]) +
-        base->earlier[i] * (p[i] + p[r] + n[i] + n[r]) + base->earlier[l] * (p[i] + p[l] + n[i] + n[l]);
-    return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
-}
-
-/* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
-static void linearised_box(const struct base *base, const struct tangent *a)
-{
-    const size_t points = base->law->problem->line.points;
-    const double dt = base->law->dt, dx = base->law->problem->line.dx;
-    const double in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);
-    double *right = a->v_next; /* no scheme of cells keeps u_t */
-    struct gm_ring_band *band = gm_arena_take(base->law->arena, 1, sizeof *band);
-    gm_arena_need(base->law->arena, gm_ring_band_open(band, points, 1, 1));
-    gm_arena_keep(base->law->arena, band, gm_ring_band_close);
-    for (size_t i = 0; i < points; i++) {
-        const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
-        gm_ring_band_add(band, i, 0, -1, 0, in_time - in_space + before);
-        gm_ring_band_add(band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
-        gm_ring_band_add(band, i, 0, 1, 0, in_time - in_space + after);
-    }
-    if (!gm_ring_band_factor(band)) {
-        gm_arena_leave(base->law->arena);
-    }
-    for (int k = 0; k < 3; k++) {
-        for (size_t i = 0; i < points; i++) {
-            right[i] = -nine_points(base, a, i);
-        }
-        gm_ring_band_solve(band, right);
-        for (size_t i = 0; i < points; i++) {
-            a->next[i] += right[i];
-        }
-    }
-}
-
 static void by_own_steps(const struct base *base, const struct tangent *a)
 {
     const struct gm_levels *of = &base->levels;
@@ -174,89 +124,9 @@ static void complete_node(const void *tangent, size_t node, double *levels)
     }
 }
 
-/* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
-   alternating part free; the acceleration, which like A_t V = D_t A_x u has none, determines it. */
-static void side_slopes(const struct gm_grid1 *grid, const double *before, const double *after,
-                        const double *curvature, double *w)
-{
-    const size_t points = grid->points;
-    double alternating = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t r = right_of(i, points);
-        const double force = curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
-        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * grid->dx);
-        alternating += i % 2 ? -force : force;
-    }
-    gm_ring_unaverage(w, points);
-    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
-        const double part = grid->dx / 2 * alternating / (double)points;
-        w[i] -= i % 2 ? -part : part;
-    }
-}
-
-/* D_t V in cell i */
-static double acceleration(const struct gm_grid1 *grid, const double *before, const double *after,
-                           const double *curvature, const double *w, size_t i)
-{
-    const size_t r = right_of(i, grid->points);
-    return (w[r] - w[i]) / grid->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
-}
-
-static void complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
-{
-    const struct gm_grid1 *grid = &base->law->problem->line;
-    const size_t points = grid->points;
-    const double dt = base->law->dt;
-    double *w = a->v_past, *w_later = a->v_now; /* no scheme of cells keeps u_t */
-    side_slopes(grid, a->past, a->now, base->earlier, w);
-    side_slopes(grid, a->now, a->next, base->later, w_later);
-    for (size_t i = 0; i < points; i++) {
-        const size_t r = right_of(i, points);
-        double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
-        lower[U] = (a->now[i] + a->now[r]) / 2;
-        upper[U] = (a->next[i] + a->next[r]) / 2;
-        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / dt +
-                   dt / 2 * acceleration(grid, a->past, a->now, base->earlier, w, i);
-        upper[V] = lower[V] + dt * acceleration(grid, a->now, a->next, base->later, w_later, i);
-    }
-    for (size_t i = 0; i <= points; i++) {
-        const size_t at = i < points ? i : 0;
-        double *side = faces->sides + i * DIMENSION;
-        side[U] = (a->now[at] + a->next[at]) / 2;
-        side[W] = w_later[at];
-    }
-}
-
-/* V'' in the cells between two levels. */
-static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
-                            double *curvature)
-{
-    const struct gm_grid1 *grid = &problem->line;
-    for (size_t i = 0; i < grid->points; i++) {
-        const size_t r = right_of(i, grid->points);
-        const double jump = r == 0 ? grid->jump : 0;
-        curvature[i] =
-            gm_field_of(problem)->wave->curvature(problem, (p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
-    }
-}
-
 static enum gm_wave_law law_of(const struct gm_law *law)
 {
     return ((const struct gm_two_step_row *)law->scheme->coefficients)->law;
-}
-
-static struct base base_of(const struct gm_law *law)
-{
-    const struct gm_problem *problem = law->problem;
-    const size_t points = problem->line.points;
-    struct base base = {.law = law, .levels = gm_levels_of(law)};
-    base.earlier = gm_arena_take(law->arena, 2 * points, sizeof *base.earlier);
-    base.later = base.earlier + points;
-    if (law_of(law) == GM_LAW_CELLS) {
-        cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
-        cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
-    }
-    return base;
 }
 
 /* Tangent 0 or 1, a step ahead. */
@@ -275,8 +145,6 @@ static struct tangent tangent_of(const struct base *base, size_t which)
     }
     if (base->law->by_differences) {
         by_own_steps(base, &a);
-    } else if (kind == GM_LAW_CELLS) {
-        linearised_box(base, &a);
     } else if (kind == GM_LAW_CENTRED) {
         linearised_centred(base, &a);
     } else {
@@ -285,12 +153,53 @@ static struct tangent tangent_of(const struct base *base, size_t which)
     return a;
 }
 
+/* The means of u in the cells between two levels, and zeros for v. */
+static const double *cells_of(const struct gm_law *law, const double *p, const double *q)
+{
+    const struct gm_grid1 *grid = &law->problem->line;
+    double *cells = gm_arena_take(law->arena, 2 * grid->points, sizeof *cells);
+    for (size_t i = 0; i < grid->points; i++) {
+        const size_t r = right_of(i, grid->points);
+        cells[i] = (p[i] + p[r] + q[i] + q[r] + (r == 0 ? 2 * grid->jump : 0)) / 4;
+    }
+    return cells;
+}
+
+/* Advances tangents of the box of all components. They are compared with differences of the scheme's own steps from the
+   level before, which a step back of the box gives, with A_t V = D_t A_x u. */
 static void advance_tangents(const struct gm_law *law, struct gm_faces faces[2])
 {
-    const struct base base = base_of(law);
+    const size_t points = law->problem->line.points;
+    const struct gm_levels levels = gm_levels_of(law);
+    struct gm_law back = *law;
+    back.dt = -law->dt;
+    struct gm_box_tangents *ahead = gm_box_linearise(law, cells_of(law, levels.now, levels.next)),
+                           *before = law->by_differences
+                                         ? gm_box_linearise(&back, cells_of(law, levels.past, levels.now))
+                                         : NULL;
+    double *now = gm_arena_take(law->arena, 4 * points, sizeof *now), *past = now + 2 * points,
+           *next = past + points;
+    const double *const from[] = {levels.now, levels.past}, *const along[] = {now, past};
     for (size_t k = 0; k < 2; k++) {
-        const struct tangent a = tangent_of(&base, k);
-        complete_cells(&base, &a, &faces[k]);
+        const double waves = 2 + (double)k, phase = 0.3 + 0.4 * (double)k;
+        gm_tangent_start(now, points, waves, phase);
+        gm_tangent_start(now + points, points, waves, 3 * phase);
+        if (before) {
+            gm_box_advance_tangent(before, -law->dt, now, NULL, &faces[k]);
+        }
+        for (size_t i = 0; i < points; i++) {
+            past[i] = 2 * faces[k].sides[i * DIMENSION + U] - now[i];
+        }
+        gm_box_advance_tangent(ahead, law->dt, now, NULL, &faces[k]);
+        if (before) {
+            gm_law_differentiate_levels(law, 2, from, along, (double *const[]){next, NULL});
+        }
+        for (size_t i = 0; before && i < points; i++) {
+            const double *lower = faces[k].lower + i * DIMENSION;
+            double *upper = faces[k].upper + i * DIMENSION;
+            upper[U] = (next[i] + next[right_of(i, points)]) / 2;
+            upper[V] = 2 / law->dt * (upper[U] - lower[U]) - lower[V];
+        }
     }
 }
 
@@ -303,7 +212,7 @@ double gm_wave_form(const struct gm_law *law)
         return gm_lattice_law(law, &cells, advance_tangents);
     }
     const bool centred = law_of(law) == GM_LAW_CENTRED;
-    const struct base base = base_of(law);
+    const struct base base = {law, gm_levels_of(law)};
     const struct tangent a = tangent_of(&base, 0), b = tangent_of(&base, 1);
     const struct nodes of_a = {grid, law->dt, centred, &a}, of_b = {grid, law->dt, centred, &b};
     return gm_nodes_law(law, centred, complete_node, &of_a, &of_b);
