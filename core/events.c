@@ -413,9 +413,8 @@ static void change(struct rest *rest, double t, size_t event)
         }
     }
     settle(step, rest->after, rest->values, after);
-    for (size_t i = 0; i < events->breaks; i++) { /* jumped with this one, and are not passed here */
-        const size_t other = first_break(problem) + i;
-        rest->places[other] = other != event && modes[i] != rest->modes[i] ? NAN : rest->places[other];
+    for (size_t i = first_break(problem); i < watched(step); i++) { /* g that jumped are not passed here */
+        rest->places[i] = i != event && after[i] != rest->values[i] ? NAN : rest->places[i];
     }
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
