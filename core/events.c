@@ -14,7 +14,7 @@ struct place {
 };
 
 /* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
-   before. A value of 0, where round-off hides the zero, says nothing of the slope. */
+   before. Values of 0, of which round-off makes many, give no slope. */
 static double next_share(struct place newest, struct place other, struct place third)
 {
     const double xi = (newest.s - other.s) / (third.s - other.s),
