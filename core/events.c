@@ -14,12 +14,12 @@ struct place {
 };
 
 /* Returns the next place as a fraction of the way from the newest place to the other; `third` is the one
-   before. */
+   before. Values of 0, of which round-off makes many, give no slope. */
 static double next_share(struct place newest, struct place other, struct place third)
 {
     const double xi = (newest.s - other.s) / (third.s - other.s),
                  phi = (newest.value - other.value) / (third.value - other.value);
-    if (!(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) {
+    if (newest.value == 0 || other.value == 0 || !(phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)) {
         return 0.5;
     }
     return newest.value / (other.value - newest.value) * third.value / (other.value - third.value) +
@@ -137,36 +137,79 @@ static double sign_of_rate(const struct gm_event_step *step, size_t event, const
     return step->dt < 0 ? -sign : sign;
 }
 
+/* Breaks at the whole numbers of g are breaks at 0 of (g - k)(k + 1 - g), which is above 0 until g leaves its interval at
+   either end. */
+static bool is_whole(const struct gm_event_step *step, size_t event)
+{
+    const size_t first = first_break(step->problem);
+    return event >= first && step->problem->events->whole[event - first];
+}
+
+/* The value whose sign changes, from that of g. */
+static double watched_value(const struct gm_event_step *step, size_t event, double g)
+{
+    const double k = step->memory[event];
+    return is_whole(step, event) ? (g - k) * (k + 1 - g) : g;
+}
+
+/* The sign with which an event waits. */
+static double awaited(const struct gm_event_step *step, size_t event)
+{
+    return is_whole(step, event) ? 1 : step->memory[event];
+}
+
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. At a break it
    leads to a side that it does not leave at once. */
-static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double value,
+static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
-    if (fabs(value) > nothing) {
-        step->memory[event] = sign_of(value);
+    double *memory = &step->memory[event];
+    if (is_whole(step, event)) {
+        *memory = floor(g);
+        *memory -= *memory == g && sign_of_rate(step, event, look) < 0;
+    } else if (fabs(g) > nothing) {
+        *memory = sign_of(g);
     } else if (event < first_break(step->problem)) {
-        step->memory[event] = sign_of_rate(step, event, look);
+        *memory = sign_of_rate(step, event, look);
     } else {
-        step->memory[event] = 1;
+        *memory = 1;
         const double above = sign_of_rate(step, event, look);
-        step->memory[event] = -1;
+        *memory = -1;
         const double below = sign_of_rate(step, event, look);
-        step->memory[event] = above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0;
+        *memory = above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0;
+    }
+}
+
+static void find_g(const struct gm_event_step *step, const double *look, double *g)
+{
+    const double *modes = gm_events_modes(step->problem, step->memory);
+    step->problem->events->values(step->problem, modes, look, 1, g);
+}
+
+/* Lets breaks wait in a look, whose g depend on the modes of those before them; only those whose g is none of `before`, if
+   that is given. */
+static void settle(const struct gm_event_step *step, const double *look, const double *before, double *g)
+{
+    for (int pass = 0; pass < 3;
+         pass++) { /* where g is 0 the modes of all others are needed, and others need its own */
+        for (size_t i = first_break(step->problem); i < watched(step); i++) {
+            find_g(step, look, g);
+            if ((g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {
+                wait_ahead(step, i, look, g[i], 0);
+            }
+        }
     }
 }
 
 void gm_events_arm(struct gm_event_step *step)
 {
     const struct gm_problem *problem = step->problem;
-    double *look = step->scratch, *values = look + problem->n + 1;
+    double *look = step->scratch, *g = look + problem->n + 1;
     look_at(problem, step->t, step->begin, look);
-    problem->events->values(problem, look, 1, values);
-    for (int on_zero = 0; on_zero < 2; on_zero++) { /* last, with the modes of all others */
-        for (size_t i = watched(step); i-- > 0;) {
-            if ((values[i] == 0) == on_zero) {
-                wait_ahead(step, i, look, values[i], 0);
-            }
-        }
+    settle(step, look, NULL, g);
+    find_g(step, look, g);
+    for (size_t i = 0; i < first_break(problem); i++) {
+        wait_ahead(step, i, look, g[i], 0);
     }
 }
 
@@ -180,8 +223,9 @@ bool gm_events_are_near(const struct gm_event_step *step, const double *values, 
     const struct gm_events *events = step->problem->events;
     bool near = false;
     for (size_t i = 0; i < watched(step); i++) {
+        const double sign = awaited(step, i);
         for (size_t k = 0; k < looks && (step->ends || !events->ends[i]); k++) {
-            near = near || step->memory[i] == 0 || crosses(step->memory[i], values[i * looks + k]);
+            near = near || sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
         }
     }
     return near;
@@ -201,11 +245,11 @@ struct rest {
     double *places; /* for each event the fraction of `rest` where it happens; NaN: it does not */
 };
 
+/* Writes the g of all events. */
 static void find_values(struct rest *rest, double t, const double *y, double *values)
 {
-    const struct gm_problem *problem = rest->step->problem;
-    look_at(problem, t, y, rest->look);
-    problem->events->values(problem, rest->look, 1, values);
+    look_at(rest->step->problem, t, y, rest->look);
+    find_g(rest->step, rest->look, values);
 }
 
 /* Writes the state after a fraction of the rest to rest->to. */
@@ -219,7 +263,7 @@ static bool make_part(struct rest *rest, double s, bool counted)
     return step->part(step->data, rest->from, rest->t, s * rest->rest, rest->to, counted);
 }
 
-/* g of rest->event after a fraction of the rest; NaN if it cannot be made. */
+/* The watched value of rest->event after a fraction of the rest; NaN if it cannot be made. */
 static double value_after(void *data, double s)
 {
     struct rest *rest = data;
@@ -227,14 +271,16 @@ static double value_after(void *data, double s)
         return NAN;
     }
     find_values(rest, rest->t + s * rest->rest, rest->to, rest->values);
-    return rest->values[rest->event];
+    return watched_value(rest->step, rest->event, rest->values[rest->event]);
 }
 
 /* The fraction of the rest just beyond which an event's g passes 0; 0: at once, within the finder's accuracy; NaN: it
    cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
-    const double sign = rest->step->memory[event], at_begin = rest->at_begin[event], least = 0x1p-51;
+    const double sign = awaited(rest->step, event), least = 0x1p-51,
+                 at_begin = watched_value(rest->step, event, rest->at_begin[event]),
+                 at_end = watched_value(rest->step, event, rest->at_end[event]);
     double low = 0, at_low = at_begin;
     rest->event = event;
     /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
@@ -245,7 +291,7 @@ static double place_of(struct rest *rest, size_t event)
         low = 0;
         at_low = at_begin;
     }
-    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, rest->at_end[event]);
+    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
 }
 
 /* Gives breaks without a side the one where the rest has led, and makes the rest on that side. Returns false if it
@@ -256,7 +302,7 @@ static bool take_sides(struct rest *rest)
     const double end = rest->t + rest->rest;
     bool taken = false;
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
-        if (step->memory[i] == 0 && sign_of(rest->at_end[i]) != 0) {
+        if (awaited(step, i) == 0 && sign_of(rest->at_end[i]) != 0) {
             step->memory[i] = sign_of(rest->at_end[i]);
             taken = true;
         }
@@ -280,7 +326,8 @@ static double first_place(struct rest *rest)
     const double least = 1e-6;
     for (size_t i = 0; i < watched(step); i++) {
         rest->places[i] = NAN;
-        if ((events->ends[i] && !step->ends) || !crosses(signs[i], rest->at_end[i])) {
+        if ((events->ends[i] && !step->ends) ||
+            !crosses(awaited(step, i), watched_value(step, i, rest->at_end[i]))) {
             continue;
         }
         const double place = place_of(rest, i);
@@ -297,7 +344,7 @@ static double first_place(struct rest *rest)
         first = happens ? fmin(first, place) : first;
     }
     for (size_t i = 0; i < watched(step) && first > 1; i++) {
-        signs[i] = signs[i] == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
+        signs[i] = awaited(step, i) == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
     }
     return first;
 }
@@ -321,6 +368,19 @@ static void book(struct rest *rest)
     }
 }
 
+/* Turns a break where its g is. */
+static void turn(const struct gm_event_step *step, size_t event, double g)
+{
+    double *mode = &step->memory[event];
+    *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
+}
+
+/* The sign with which g moves away from a break at which it is. */
+static double away(const struct gm_event_step *step, size_t event, double g)
+{
+    return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
+}
+
 /* Lets an event change the state rest->to at t, or a break the motion. */
 static void change(struct rest *rest, double t, size_t event)
 {
@@ -337,20 +397,24 @@ static void change(struct rest *rest, double t, size_t event)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        step->memory[event] = -step->memory[event];
+        turn(step, event, rest->values[event]);
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
         look_at(problem, t, rest->to, rest->after);
-        events->values(problem, rest->after, 1, after);
+        find_g(step, rest->after, after);
         step->memory[counts_at(problem) + event]++;
     }
-    for (size_t i = 0; i < watched(step) && !turns; i++) {
+    for (size_t i = 0; i < first_break(problem) && !turns; i++) {
         const double nothing =
             fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
         if (i == event || after[i] != rest->values[i]) {
             wait_ahead(step, i, rest->after, after[i], i == event ? nothing : 0);
         }
+    }
+    settle(step, rest->after, rest->values, after);
+    for (size_t i = first_break(problem); i < watched(step); i++) { /* g that jumped are not passed here */
+        rest->places[i] = i != event && after[i] != rest->values[i] ? NAN : rest->places[i];
     }
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
@@ -378,15 +442,12 @@ static bool are_too_short(struct gm_event_step *step, double t)
     return history[SHORT] >= MOST_SHORT;
 }
 
-/* Returns true, and notes which, if a break is at this place. */
-static bool breaks_at(struct rest *rest, double place)
+/* Notes the event, if it is a break. */
+static void note(struct gm_event_step *step, size_t event, double g)
 {
-    bool found = false;
-    for (size_t i = first_break(rest->step->problem); i < watched(rest->step); i++) {
-        rest->step->slides = rest->places[i] == place ? i : rest->step->slides;
-        found = found || rest->places[i] == place;
-    }
-    return found;
+    const size_t first = first_break(step->problem);
+    step->turned = event < first ? SIZE_MAX : event - first;
+    step->turned_at = is_whole(step, event) ? round(g) : 0;
 }
 
 /* Makes the rest up to the first events, and their changes; *place: its fraction. */
@@ -401,8 +462,12 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         return GM_EVENTS_FAILED;
     }
     step->reached = t;
-    if (place == 0) { /* back on g = 0 within the accuracy of the finder */
-        return breaks_at(rest, 0) ? GM_EVENTS_SLIDE : GM_EVENTS_MANY;
+    for (size_t i = watched(step);
+         i-- > 0 && place == 0;) { /* back on g = 0 within the accuracy of the finder */
+        if (rest->places[i] == 0) {
+            note(step, i, rest->at_begin[i]);
+            return i < first_break(step->problem) ? GM_EVENTS_MANY : GM_EVENTS_SLIDE;
+        }
     }
     for (size_t i = 0; i < watched(step); i++) {
         if (!(rest->places[i] <= place + together)) {
@@ -422,14 +487,16 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
             many = are_too_short(step, t);
         }
         change(rest, t, i);
+        note(step, i, rest->values[i]);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;
     }
+    find_values(rest, t, rest->to, rest->values);
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
-        look_at(step->problem, t, rest->to, rest->look);
-        if (rest->places[i] <= place + together && sign_of_rate(step, i, rest->look) == -step->memory[i]) {
-            step->slides = i;
+        const double sign = away(step, i, rest->values[i]);
+        if (rest->places[i] <= place + together && sign_of_rate(step, i, rest->look) == -sign) {
             step->reached = place <= together ? begin : t;
+            note(step, i, rest->values[i]);
             return GM_EVENTS_SLIDE;
         }
     }

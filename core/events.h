@@ -16,11 +16,13 @@ struct gm_events {
     size_t count, breaks;        /* the last of `count` are breaks, in runs that locate them */
     const char *const *names;    /* [count]; "": none */
     const char *const *surfaces; /* [breaks], the text of g */
+    const bool *whole;           /* [breaks]: it breaks at every whole number of g, else at 0 */
     const bool *ends;            /* [count]: the event ends the run, and changes no state */
     bool changes, ends_runs;     /* some event changes the state; some ends the run */
-    /* Writes g of all events for `looks` looks: component c of the k-th is look[c * looks + k], g of event i
-       values[i * looks + k]. NaN when out of memory. */
-    void (*values)(const struct gm_problem *problem, const double *look, size_t looks, double *values);
+    /* Writes g of all events for `looks` looks, with breaks in these modes: component c of the k-th is look[c * looks +
+       k], g of event i values[i * looks + k]. NaN when out of memory. */
+    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
+                   double *values);
     /* Returns true if the conditions of an event hold. */
     bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
     /* Writes the n components after an event. */
@@ -35,8 +37,8 @@ struct gm_events {
     bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
     /* The same for all tangents that the state y after an event holds. */
     void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
-    /* Returns the problem whose breaks are frozen with these signs of g, their modes, one per break. It and the one that was returned before stay
-       valid until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
+    /* Returns the problem whose breaks are frozen in these modes. It and the one that was returned before stay valid
+       until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);
     /* Conserved quantities, whose jumps are added up; the last is the energy, if there is one. */
@@ -57,9 +59,9 @@ struct gm_event_witness {
     void *data;
 };
 
-/* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not
-   known) and how often it happened, or the mode of a break, the jumps of the quantities, the time of the last event, and the number of
-   successive intervals that were too short. */
+/* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not known), or
+   the mode of a break, which is that sign, or the whole number below g; how often each event happened; the jumps of the
+   quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
 /* Clears counts and jumps. */
 void gm_events_clear(const struct gm_problem *problem, double *memory);
@@ -86,8 +88,9 @@ struct gm_event_step {
     const struct gm_problem *(*motion)(void *data, const double *modes);
     void *data;
     struct gm_event_witness witness;
-    double reached; /* the time of the end */
-    size_t slides;  /* the break at which it slides */
+    double reached;   /* the time of the end */
+    size_t turned;    /* the break at which it ends; SIZE_MAX: none */
+    double turned_at; /* the value of its g there */
 };
 enum gm_event_outcome {
     GM_EVENTS_NONE,
@@ -101,12 +104,13 @@ enum gm_event_outcome {
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
 /* Begins the waiting of all events in the state `begin` at t, of the last member; counts and jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns true if some g of `looks` looks has another sign than its event waits with, or waits with none. */
+/* Returns true if some event waits with no sign, or with another one than in some of `looks` looks; their values are those
+   of gm_events. */
 bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks);
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there; GM_EVENTS_SLIDE: after the break `slides` the rate
+   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_SLIDE: after a break the rate
    points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 

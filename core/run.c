@@ -400,7 +400,8 @@ static void pass_events(struct gm_run *run)
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
-        run->slides = step.slides - (run->problem->events->count - run->problem->events->breaks);
+        run->turned = step.turned;
+        run->turned_at = step.turned_at;
         if (step.part) {
             run->t = run->t0 = step.reached;
             run->n = 0;
@@ -431,7 +432,7 @@ static bool make_together(struct gm_run *run)
         memcpy(events_of(run, run->current), events_of(run, 1 - run->current), good ? bytes : 0);
     }
     if (good) {
-        problem->events->values(problem, looks, TOGETHER, values);
+        problem->events->values(problem, gm_events_modes(problem, memory), looks, TOGETHER, values);
         const struct gm_event_step waiting = {.problem = problem,
                                               .memory = events_of(run, run->current),
                                               .ends = run->ends,
@@ -679,6 +680,8 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
            then->unsolved.obstacle <= GM_STAYS_OFF && then->unsolved.invariant >= 0 && isfinite(then->t0) &&
            isfinite(then->dt) && then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
            (then->stopped & ~1) == 0 &&
+           (then->status != GM_SLIDING ||
+            (run->problem->events && then->turned < run->problem->events->breaks)) &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 

@@ -34,7 +34,8 @@ struct gm_run {
     double *event_scratch;           /* NULL: the problem has no events; not in snapshots */
     const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
     void *frozen;                    /* keeps such problems; NULL: none, or breaks are not located */
-    size_t slides;                   /* with GM_SLIDING: the break */
+    size_t turned;    /* with GM_SLIDING, and with GM_EVENTS_ACCUMULATE if breaks do: the break */
+    double turned_at; /* and the value of its g */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem

@@ -150,6 +150,9 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     gm_meta_parameters(&row, lane);
     gm_row_put(&row, "status %s, message %s, warning %s, t %.17g", status, sentence, outcome->warning,
                run->t);
+    if (lane->problem.events && lane->problem.events->breaks > 0) {
+        gm_row_put(&row, "breaks %s", gm_run_locates(run) ? "located" : "ignored");
+    }
     if (lane->problem.events && lane->problem.events->ends_runs) {
         gm_row_put(&row, "stopped %d", run->stopped);
     }

@@ -116,8 +116,12 @@ static bool unpack(const struct gm_pause *pause, size_t index, struct gm_lane *l
     const size_t head = head_size(pause), whole = record->size - head;
     size_t size = whole;
     pass_head(pause, record->bytes, paused, false);
-    return gm_lane_unpack(lane, record->bytes + head, &size) && size == whole && run->t0 == t0 &&
-           run->dt == dt && run->n == run->steps && run->steps <= gm_run_steps_by(run, t);
+    if (!gm_lane_unpack(lane, record->bytes + head, &size) || size != whole || run->dt != dt) {
+        return false;
+    }
+    /* an event that ended the run began a segment there */
+    const bool ended = run->stopped || run->status != GM_OK;
+    return (ended || (run->t0 == t0 && run->n == run->steps)) && run->steps <= gm_run_steps_by(run, t);
 }
 
 /* ---- the file ---- */

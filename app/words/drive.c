@@ -314,9 +314,13 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     }
     if (run->status == GM_NO_CONVERGENCE) {
         tell_unsolved(run, text, size);
-    } else if (run->status == GM_SLIDING) {
-        snprintf(text, size, "the motion slides along %.120s = 0 from t = %.10g: both rates point at it",
-                 run->problem->events->surfaces[run->slides], run->t);
+    } else if (run->status == GM_SLIDING ||
+               (run->status == GM_EVENTS_ACCUMULATE && run->turned < run->problem->events->breaks)) {
+        const char *const sentence =
+            run->status == GM_SLIDING
+                ? "the motion slides along %.120s = %g from t = %.10g: both rates point at it"
+                : "a step passes more than 1000 breaks, up to %.120s = %g at t = %.10g: take a shorter dt";
+        snprintf(text, size, sentence, run->problem->events->surfaces[run->turned], run->turned_at, run->t);
     } else if (run->status != GM_OK) {
         snprintf(text, size, sentences[run->status], run->t, run->limit);
     }

@@ -404,7 +404,7 @@ static void refuse_two_ends(struct gm_arena *arena, const struct gm_scene *scene
     double count, end;
     void *usual = gm_arena_keep(arena, gm_scene_defaults(scene), free);
     if (steps->count == 1 && until->count == 1 && gm_number_parse(first, &count) &&
-        gm_number_parse(second, &end)) {
+        gm_number_parse(second, &end) && count > 0) {
         both = gm_arena_print(arena, ", or until=%.40s dt=%.6g for both", second,
                               (end - gm_scene_t0(scene, usual)) / count);
     }

@@ -71,7 +71,8 @@ static bool refuse(const char *text, struct gm_span span, size_t place, struct g
         return gm_fail(fault, span.begin, "%s", GM_NO_NOISE);
     }
     if (strcmp(word, "global") == 0) {
-        return gm_fail(fault, span.begin, "global is an event of other programs; events are not known");
+        return gm_fail(fault, span.begin,
+                       "global is an event of other programs, which is written event: x = 0; y = ...");
     }
     return dash ? gm_fail(fault, span.begin, "x' = -x is written rate: x = -x")
                 : gm_fail(fault, place,

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A switch at g, of sign s, is frozen with
+/* A switch at g, whose mode s is the sign of g, is frozen with
        sign(x) = s    abs(x) = s x    heaviside(x) = 1 - [s < 0]    [a < b] = [s < 0], g = a - b
        min(a, b) = [a < b] a + (1 - [a < b]) b
-   which are the same bits where g has that sign. */
+   and one at the whole numbers of g, whose mode k is the one below, with
+       floor(x) = k    ceil(x) = -k, g = -x    mod(a, b) = a - b k, g = a/b */
 #include "core/model/breaks.h"
 
 #include <stdio.h>
@@ -26,8 +27,7 @@ const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_syst
     return found;
 }
 
-/* The number of operations in the rates that are not smooth; floor, ceil and mod jump more than once, and g with them,
-   and count as too many. */
+/* The number of operations in the rates that are not smooth. */
 static size_t count_switches(const struct gm_user_system *system)
 {
     const size_t mark = gm_arena_mark(system->arena);
@@ -36,10 +36,7 @@ static size_t count_switches(const struct gm_user_system *system)
     const gm_node_id *parts = gm_arena_keep(
         system->arena, gm_formula_parts_of(&system->graph, system->rates, system->n, &count), free);
     for (size_t k = 0; k < count; k++) {
-        const enum gm_operation operation = system->graph.nodes[parts[k]].operation;
-        const bool jumps_often = operation == GM_OPERATION_FLOOR || operation == GM_OPERATION_CEIL ||
-                                 operation == GM_OPERATION_MOD;
-        found += !switches[parts[k]] ? 0 : jumps_often ? GM_MOST_BREAKS + 1 : 1;
+        found += switches[parts[k]];
     }
     gm_arena_release(system->arena, mark);
     return found;
@@ -70,49 +67,24 @@ void gm_breaks_declare(struct gm_user_system *system)
     }
 }
 
-static gm_node_id applied(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
-{
-    return gm_formula_apply(graph, operation, a, b);
-}
-
-/* The variable that freezes a switch, new if it is not known; GM_NO_NODE: it is not frozen. */
-static gm_node_id frozen_at(struct gm_freezing *freezing, gm_node_id surface)
+/* Returns the variable with the mode of a switch, new if it is not known; GM_NO_NODE: it is not frozen. */
+static gm_node_id mode_of(struct gm_freezing *freezing, gm_node_id surface, bool whole)
 {
     struct gm_formula *graph = &freezing->system->graph;
-    for (size_t i = 0; i < freezing->count; i++) {
-        if (freezing->list[i].surface == surface) {
-            return gm_formula_variable(graph, freezing->list[i].variable);
+    size_t i = 0;
+    while (i < freezing->count &&
+           (freezing->list[i].surface != surface || freezing->list[i].whole != whole)) {
+        i++;
+    }
+    if (i == freezing->count) {
+        freezing->full |= !freezing->closed && i == GM_MOST_BREAKS;
+        if (freezing->closed || freezing->full) {
+            return GM_NO_NODE;
         }
+        freezing->list[freezing->count++] =
+            (struct gm_break){surface, freezing->system->variable_count++, whole, NULL};
     }
-    freezing->full |= !freezing->closed && freezing->count == GM_MOST_BREAKS;
-    if (freezing->closed || freezing->full) {
-        return GM_NO_NODE;
-    }
-    struct gm_break *new = &freezing->list[freezing->count++];
-    *new = (struct gm_break){surface, freezing->system->variable_count++};
-    return gm_formula_variable(graph, new->variable);
-}
-
-/* [a < b] */
-static gm_node_id frozen_below(struct gm_freezing *freezing, gm_node_id a, gm_node_id b)
-{
-    struct gm_formula *graph = &freezing->system->graph;
-    const gm_node_id zero = gm_formula_constant(graph, 0);
-    const bool turned = a == zero || (b != zero && b < a);
-    const gm_node_id low = turned ? b : a, high = turned ? a : b,
-                     sign = frozen_at(freezing,
-                                      high == zero ? low : applied(graph, GM_OPERATION_SUBTRACT, low, high));
-    return sign == GM_NO_NODE
-               ? sign
-               : applied(graph, GM_OPERATION_BELOW, turned ? zero : sign, turned ? sign : zero);
-}
-
-/* c a + (1 - c) b */
-static gm_node_id chosen(struct gm_formula *graph, gm_node_id c, gm_node_id a, gm_node_id b)
-{
-    const gm_node_id other = applied(graph, GM_OPERATION_SUBTRACT, gm_formula_constant(graph, 1), c);
-    return applied(graph, GM_OPERATION_ADD, applied(graph, GM_OPERATION_CHOSEN, c, a),
-                   applied(graph, GM_OPERATION_CHOSEN, other, b));
+    return gm_formula_variable(graph, freezing->list[i].variable);
 }
 
 /* gm_rewriter */
@@ -120,33 +92,52 @@ static gm_node_id frozen(struct gm_formula *graph, gm_node_id node, gm_node_id a
                          const void *data)
 {
     struct gm_freezing *freezing = *(struct gm_freezing *const *)data;
-    const struct gm_node here = graph->nodes[node];
-    if (here.operation <= GM_VARIABLE || gm_operation_rows[here.operation].smooth ||
+    const enum gm_operation operation = graph->nodes[node].operation;
+    if (operation <= GM_VARIABLE || gm_operation_rows[operation].smooth ||
         (node < freezing->node_count && !freezing->varying[node])) {
         return GM_NO_NODE;
     }
-    const gm_node_id one = gm_formula_constant(graph, 1);
-    gm_node_id held = GM_NO_NODE;
-    switch (here.operation) {
-    case GM_OPERATION_SIGN:
+    const bool whole = operation == GM_OPERATION_FLOOR || operation == GM_OPERATION_CEIL ||
+                       operation == GM_OPERATION_MOD,
+               compares = operation == GM_OPERATION_BELOW || operation == GM_OPERATION_MIN ||
+                          operation == GM_OPERATION_MAX;
+    const gm_node_id zero = gm_formula_constant(graph, 0), one = gm_formula_constant(graph, 1),
+                     x = operation == GM_OPERATION_CEIL  ? gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a)
+                         : operation == GM_OPERATION_MOD ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, a, b)
+                         : operation == GM_OPERATION_MAX ? b
+                                                         : a,
+                     y = !compares                       ? zero
+                         : operation == GM_OPERATION_MAX ? a
+                                                         : b;
+    const bool turned = compares && (x == zero || (y != zero && y < x)); /* x < y and y < x are one switch */
+    const gm_node_id low = turned ? y : x, high = turned ? x : y,
+                     g = high == zero ? low : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, low, high),
+                     mode = mode_of(freezing, g, whole);
+    if (mode == GM_NO_NODE) {
+        return mode;
+    }
+    const gm_node_id below =
+        gm_formula_apply(graph, GM_OPERATION_BELOW, turned ? zero : mode, turned ? mode : zero);
+    const gm_node_id other = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, one, below);
+    switch (operation) {
     case GM_OPERATION_ABS:
-        held = frozen_at(freezing, here.a);
-        return held == GM_NO_NODE || here.operation == GM_OPERATION_SIGN
-                   ? held
-                   : applied(graph, GM_OPERATION_MULTIPLY, held, a);
+        return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, mode, a);
     case GM_OPERATION_HEAVISIDE:
-        held = frozen_below(freezing, here.a, gm_formula_constant(graph, 0));
-        return held == GM_NO_NODE ? held : applied(graph, GM_OPERATION_SUBTRACT, one, held);
+        return other;
     case GM_OPERATION_BELOW:
-        return frozen_below(freezing, here.a, here.b);
+        return below;
+    case GM_OPERATION_CEIL:
+        return gm_formula_apply(graph, GM_OPERATION_NEGATE, mode, mode);
+    case GM_OPERATION_MOD:
+        return gm_formula_apply(graph, GM_OPERATION_SUBTRACT, a,
+                                gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, mode));
     case GM_OPERATION_MIN:
-        held = frozen_below(freezing, here.a, here.b);
-        return held == GM_NO_NODE ? held : chosen(graph, held, a, b);
     case GM_OPERATION_MAX:
-        held = frozen_below(freezing, here.b, here.a);
-        return held == GM_NO_NODE ? held : chosen(graph, held, a, b);
-    default: /* floor, ceil and mod in formulas that are not rates */
-        return GM_NO_NODE;
+        return gm_formula_apply(graph, GM_OPERATION_ADD,
+                                gm_formula_apply(graph, GM_OPERATION_CHOSEN, below, a),
+                                gm_formula_apply(graph, GM_OPERATION_CHOSEN, other, b));
+    default: /* sign, floor */
+        return mode;
     }
 }
 

@@ -8,14 +8,16 @@
 
 enum { GM_MOST_BREAKS = 64 };
 
-/* A switch, frozen by the value of a variable: the sign of g, -1, 0 or 1. */
+/* A switch, frozen by the value of a variable, its mode: the sign of g, -1, 0 or 1, or the whole number below g. */
 struct gm_break {
-    gm_node_id surface; /* g */
+    gm_node_id surface; /* g, with the switches in it frozen too, which precede this one */
     size_t variable;
+    bool whole;       /* it switches at whole numbers */
+    const char *text; /* of g */
 };
 
 /* Adds the key to a system with switches that can be located: it has coordinates, or components with rates, no
-   constraint, and at most GM_MOST_BREAKS switches, without floor, ceil and mod. */
+   constraint, and at most GM_MOST_BREAKS switches. */
 void gm_breaks_declare(struct gm_user_system *system);
 /* Returns a flag for each node that is not smooth in the state or the time, in the arena. */
 const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_system *system);

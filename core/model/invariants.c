@@ -604,7 +604,7 @@ static const char *find_lack(const struct search *search)
     for (size_t i = 0; i < system->n; i++) {
         kinked |= gm_formula_kink(&system->graph, system->rates[i], all, system->n) != GM_NO_NODE;
     }
-    return system->timed ? "its rates depend on the time" : kinked ? "it has min, max, abs or mod" : NULL;
+    return system->timed ? "its rates depend on the time" : kinked ? "it is not smooth" : NULL;
 }
 
 void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, size_t degree,

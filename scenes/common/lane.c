@@ -191,6 +191,12 @@ void gm_lane_note(const struct gm_lane *lane, char *sentence)
     if (lane->scene->note) {
         lane->scene->note(&lane->problem, lane->parameters, sentence);
     }
+    if (lane->problem.events && lane->problem.events->breaks > 0 && !gm_run_locates(lane->run)) {
+        const size_t length = strlen(sentence);
+        snprintf(sentence + length, GM_MESSAGE - length,
+                 "%s%s steps across breaks; rk4 and gauss4 locate them, for one member",
+                 length > 0 ? "; " : "", lane->scheme->name);
+    }
 }
 
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)

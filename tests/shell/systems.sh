@@ -827,7 +827,10 @@ refused 1 'a field' run ./sea.system
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + if(q > 0, 4, 1)*q^2/2\nstart: q = 0, p = 1\ndt: 0.1\nuntil: 20\n' >springs.system
 printf 'rate: x = -x + sign(sin(t))\nstart: x = 0\ndt: 0.1\nuntil: 10\n' >relay.system
-printf 'rate: x = 1, y = max(x, 2*x - 1.3) + heaviside(x - 1.7)\nstart: x = 0.2, y = 0\ndt: 0.1\nuntil: 3.05\n' >steps.system
+printf 'rate: x = 1, y = floor(x) + mod(2*x, 1) + ceil(x) + max(x, 2*x - 1.3) + heaviside(x - 1.7)\nstart: x = 0.2, y = 0\ndt: 0.1\nuntil: 3.05\n' >steps.system
+printf 'rate: z = if(mod(t, 1) < 1/2, 1, -1)\nstart: z = 0\ndt: 0.1\nuntil: 3.25\n' >wave.system
+printf 'rate: z = -z + mod(t, 1)\nstart: z = 0\ndt: 0.1\nuntil: 2\n' >saw.system
+printf 'rate: x = 2.2 - floor(x)\nstart: x = 0.2\ndt: 0.1\nuntil: 5\n' >stairs.system
 printf 'parameter: z = 0.05\nrate: x = v, v = -x - 2*z*v + 0.2*sign(v)\nstart: x = 0, v = 2.5\ndt: 0.1\nuntil: 60\n' >motor.system
 printf 'parameter: F = 0\nrate: x = v, v = F - x - 0.3*sign(v)\nstart: x = 1, v = 0\ndt: 0.1\nuntil: 20\n' >friction.system
 python3 - "$geomint" <<'END' || fail 'located breaks'
@@ -848,11 +851,25 @@ for scheme, order in ("rk4", 4), ("gauss4", 4), ("verlet", 2):
     assert abs(math.log2(coarse / fine) - order) < 0.2, (scheme, coarse, fine)
 assert error("relay.system", (0.07859308485389671, 10), "scheme=gauss8") < 1e-13
 # rates that are linear between breaks: the midpoint rule for each piece
-places, sum = (0.2, 1.3, 1.7, 3.25), 0
+places, sum = (0.2, 0.5, 1, 1.3, 1.5, 1.7, 2, 2.5, 3, 3.25), 0
 for a, b in zip(places, places[1:]):
     x = (a + b) / 2
-    sum += (b - a) * (max(x, 2*x - 1.3) + (x > 1.7))
-assert error("steps.system", (3.25, sum), "scheme=rk4") < 1e-13
+    sum += (b - a) * (math.floor(x) + 2*x % 1 + math.ceil(x) + max(x, 2*x - 1.3) + (x > 1.7))
+for dt in "dt=0.1", "dt=0.61", "dt=3.05": # one jump in a step, or all
+    assert error("steps.system", (3.25, sum), "scheme=rk4", dt) < 1e-13, dt
+    assert error("wave.system", (0.25, 3.25), "scheme=rk4", dt.replace("3.05", "3.25").replace("0.61", "0.65")) < 1e-14, dt
+# a tooth takes z to (z + 1)/e; every second step ends at a jump of the rate, up to round-off
+tooth = lambda z: (z + 1) / math.e
+errors = [error("saw.system", (tooth(tooth(0)), 2), "scheme=rk4", "compensated=yes", "dt=%r" % (0.05 / 2**k)) for k in range(9)]
+assert all(abs(math.log2(a / b) - 4) < 0.1 for a, b in zip(errors[:6], errors[1:])), errors
+assert errors[-1] < 1e-15, errors
+# the last of three stairs ends where floor turns the rate back
+assert error("stairs.system", (2 + 0.2*(5 - 0.8/2.2 - 1/1.2), ), "scheme=rk4", "dt=2.5") < 1e-13
+slides = run("stairs.system", "scheme=rk4", "until=10", code=2)
+assert "slides along x = 3 from t = 6.19696969" in slides["message"], slides
+many = run("wave.system", "scheme=rk4", "dt=600", "until=600", code=2)
+assert many["status"] == "events-accumulate" and "more than 1000 breaks" in many["message"], many
+assert run("corner.system", "scheme=rk4")["breaks"] == "located" and run("corner.system", "scheme=gsl-msadams")["breaks"] == "ignored"
 # half a turn takes x to c + (x - c) exp(-pi z / w) of the other sign; without the jump of the rates in the tangent map
 # both multipliers are this
 slow = math.exp(-2 * math.pi * 0.05 / math.sqrt(1 - 0.05**2))
@@ -880,7 +897,7 @@ grep -q 'H conserves energy  *not decided' out || fail "avf2 across corners: $(c
     fail "order across jumps: $(cat out)"
 "$geomint" list springs.system --long | grep -q 'smooth .*breaks are located' || fail 'breaks in the list'
 # a switch that is never met changes no bit
-printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8)\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8) + mod(q + 2, 100)/3\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system
 for scheme in verlet-position rk4 gauss4 midpoint avf2 radau5 tao2; do
     for breaks in located ignored; do
         "$geomint" run far.system scheme=$scheme breaks=$breaks --json --state | grep -o '"state".*' >$breaks.state
@@ -892,12 +909,22 @@ printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2
 "$geomint" list robertson.system --long | grep -q 'stiff *yes rates 0.038 to 2.2e+03' || fail 'the rates of a stiff system'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
 status 0 run system 'rate=x = 1, z = if(x > 0 and not x > 1 or x > 5, 2, 0)' x=-1 z=0 dt=0.1 until=3 scheme=rk4
-# a wave of floor or mod jumps more than once, and is not located; a relay at rest has no end to its steps
-"$geomint" run system 'rate=z = if(mod(t, 1) < 0.5, 1, -1)' z=0 dt=0.1 until=3.25 scheme=rk4 >out || fail "a wave: $(cat out)"
-"$geomint" list system 'rate=z = floor(t)' z=0 --long | grep -q 'breaks are not located' || fail 'breaks of floor'
+"$geomint" list system 'rate=z = floor(t)' z=0 --long | grep -q 'breaks are located' || fail 'breaks of floor'
+"$geomint" certify rk4 --on saw.system >out && grep -q 'order 4, measured \(3.99\|4.00\)' out || fail "order through jumps: $(cat out)"
+# a run that slides, or ends at an event, is resumed: it has ended
+printf 'rate: x = 1\nstart: x = 0\nevent: x = 0.55; stop\ndt: 0.1\nuntil: 3\n' >ends.system
+for words in 'friction.system until=20' 'ends.system until=3'; do
+    "$geomint" run $words scheme=rk4 --checkpoint ended.check | grep -v seconds >whole
+    "$geomint" run $words scheme=rk4 --continue ended.check | grep -v seconds >out || [ $? = 2 ] || fail "$words is not resumed"
+    cmp -s whole out || fail "$words goes on after its end: $(cat out)"
+done
+# a relay at rest has no end to its steps
 status 2 run system 'rate=x = -sign(x)' x=0.35 dt=0.1 until=1 scheme=rk4
 grep -q 'slides along x = 0 from t = 0.35' out || fail "a relay: $(cat out)"
 refused 1 'no parameter "breaks"' run ./wall.system breaks=located
+status 0 run friction.system scheme=rk4 steps=3 --measure I1_error
+grep -q "invariants are not searched: the system is not smooth" out || fail "why no invariant: $(cat out)"
+! "$geomint" run lorenz steps=0 until=0 2>&1 | grep -q nan || fail "a step of nan"
 # a quotient that is infinite on the way to a finite rate
 # rates and brackets stand in one line or in several
 printf 'rate: x = y, y = -mu*max(x, 0)\nparameter: mu = 2\nstart: x = 1, y = 0\n' >one.system

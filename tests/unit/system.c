@@ -580,7 +580,7 @@ static const struct {
     {CANONICAL "H: p_q^2/2 + randn(1)*q\n", 3, 14, "the equations are deterministic; noise is not known"},
     {CANONICAL "H: p_q^2/2\nnoise: q = 1\n", 4, 1, "the equations are deterministic; noise is not known"},
     {CANONICAL "H: p_q^2/2\nwiener w\n", 4, 1, "the equations are deterministic; noise is not known"},
-    {CANONICAL "H: p_q^2/2\nglobal 1 q {q = 1}\n", 4, 1, "events are not known"},
+    {CANONICAL "H: p_q^2/2\nglobal 1 q {q = 1}\n", 4, 1, "is written event: x = 0; y = ..."},
     {"q' = -q + 1\n", 1, 1, "q' = -q + 1 is written rate: q = -q + 1"},
     {"dq/dt = -q\n", 1, 1, "dq/dt = -q is written rate: q = -q"},
     {"q'' = -q\n", 1, 1, "x' = -x is written rate: x = -x"},

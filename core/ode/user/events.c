@@ -10,17 +10,40 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/user/data.h"
 
+/* Evaluates a tape of the system with frozen switches, whose inputs are all variables; the modes are the last. */
+static void frozen_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
+                          const double *look, size_t looks, double *values)
+{
+    const struct gm_user_data *self = gm_user_data_of(problem);
+    const size_t given = self->model->system->n + 1, own = self->model->system->variable_count;
+    double *inputs = malloc(tape->inputs * looks * sizeof *inputs);
+    for (size_t i = 0; i < tape->count * looks && !inputs; i++) {
+        values[i] = NAN;
+    }
+    for (size_t i = 0; i < tape->inputs * looks && inputs; i++) {
+        const size_t variable = i / looks;
+        inputs[i] = variable < given ? look[i]
+                    : variable < own ? self->values[variable]
+                                     : modes[variable - own];
+    }
+    if (inputs) {
+        gm_late_tape_values(tape, inputs, values, looks);
+    }
+    free(inputs);
+}
+
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
    components and the time. */
-static void values(const struct gm_problem *problem, const double *look, size_t looks, double *g)
+static void values(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
+                   double *g)
 {
     struct gm_user_data *self = gm_user_data_of(problem);
-    const size_t count = self->model->event_count, breaks = self->events.breaks;
+    const size_t count = self->model->event_count;
     if (count > 0) {
         gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
     }
-    if (breaks > 0) {
-        gm_late_tape_values(&self->tapes[GM_USER_BREAKS], look, g + count * looks, looks);
+    if (self->events.breaks > 0) {
+        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, looks, g + count * looks);
     }
 }
 
@@ -101,7 +124,14 @@ static bool open_saltation(const struct gm_problem *problem, const struct gm_pro
     saltation->v = saltation->after + width;
     saltation->along_rates = saltation->v + width;
     saltation->along_v = saltation->along_rates + rows;
-    gm_late_tape_values(&gm_user_data_of(problem)->event_slopes[event], before, saltation->slopes, 1);
+    struct gm_user_data *self = gm_user_data_of(problem);
+    if (event < self->model->event_count) {
+        gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
+    } else {
+        frozen_values(problem, &self->event_slopes[event],
+                      gm_user_data_of(motion)->values + self->model->system->variable_count, before, 1,
+                      saltation->slopes);
+    }
     field_at(motion, before, saltation->before);
     slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
                  &saltation->size);
@@ -196,27 +226,27 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
 
 /* ---- opening ---- */
 
-/* Names the tapes of located breaks; `text` is that of g = 0, for sentences. */
+/* Names the tapes of located breaks. */
 static void open_breaks(struct gm_user_data *self, const char **names)
 {
     const struct gm_user_frozen *frozen = self->model->frozen;
     const struct gm_formula *graph = &frozen->system.graph;
-    const size_t first = self->model->event_count, inputs = self->model->system->n + 1;
-    const struct gm_naming naming = gm_system_naming(&frozen->system);
+    const size_t first = self->model->event_count, inputs = frozen->system.variable_count;
     const char **surfaces = gm_arena_take(self->arena, frozen->count, sizeof *surfaces);
+    bool *whole = gm_arena_take(self->arena, frozen->count, sizeof *whole);
     self->events.surfaces = surfaces;
+    self->events.whole = whole;
     for (size_t i = 0; i < frozen->count; i++) {
         const struct gm_user_event *event = &frozen->events[i];
-        char *text = gm_formula_text(graph, frozen->surfaces[i], &naming);
         names[first + i] = "";
-        surfaces[i] = gm_arena_print(self->arena, "%.120s", text ? text : "a long term");
-        free(text);
+        whole[i] = frozen->list[i].whole;
+        surfaces[i] = frozen->list[i].text;
         self->event_slopes[first + i] =
-            (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, self->values, NULL};
+            (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, NULL, NULL};
         gm_arena_keep(self->arena, &self->event_slopes[first + i], gm_late_tape_close);
     }
     self->tapes[GM_USER_BREAKS] =
-        (struct gm_late_tape){graph, frozen->surfaces, frozen->count, inputs, self->values, NULL};
+        (struct gm_late_tape){graph, frozen->surfaces, frozen->count, inputs, NULL, NULL};
     gm_arena_keep(self->arena, &self->tapes[GM_USER_BREAKS], gm_late_tape_close);
 }
 

@@ -282,8 +282,14 @@ static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
     frozen->surfaces = gm_arena_take(arena, count + 1, sizeof *frozen->surfaces);
     frozen->events = gm_arena_take(arena, count + 1, sizeof *frozen->events);
     for (size_t i = 0; i < count; i++) {
-        const struct gm_break *one = &frozen->list[i];
+        struct gm_break *one = &frozen->list[i];
         struct gm_user_event *event = &frozen->events[i];
+        const struct gm_naming naming = gm_system_naming(system);
+        char *text = gm_formula_text(&system->graph, one->surface, &naming);
+        one->text = gm_arena_print(arena, "%.120s", text ? text : "a long term");
+        system->variables[one->variable].name =
+            gm_arena_print(arena, "%s(%s)", one->whole ? "floor" : "sign", one->text);
+        free(text);
         frozen->surfaces[i] = one->surface;
         event->slopes =
             gm_sparse_jacobian(arena, &system->graph, &one->surface, 1, marked, system->variable_count);

@@ -537,11 +537,9 @@ enum { KEPT = 8 };
 
 /* Problems with frozen switches, the last ones that were asked for. */
 struct frozen_problems {
-    size_t count, next, latest;
-    struct {
-        struct gm_problem problem;
-        double modes[GM_MOST_BREAKS];
-    } list[KEPT];
+    size_t latest, next;
+    struct gm_problem list[KEPT]; /* without components: none */
+    double modes[KEPT][GM_MOST_BREAKS];
 };
 
 /* Opens a problem with these switches. */
@@ -569,38 +567,33 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
 static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
 {
     const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
-    struct frozen_problems *problems = *frozen = *frozen ? *frozen : calloc(1, sizeof *problems);
-    if (!problems) {
-        return NULL;
-    }
-    for (size_t k = 0; k < problems->count; k++) {
-        const size_t i = (problems->latest + k) % problems->count;
-        if (memcmp(problems->list[i].modes, modes, size) == 0) {
-            problems->latest = i;
-            return &problems->list[i].problem;
+    struct frozen_problems *kept = *frozen = *frozen ? *frozen : calloc(1, sizeof *kept);
+    for (size_t i = 0; kept && i < KEPT; i++) {
+        if (kept->list[i].n > 0 && memcmp(kept->modes[i], modes, size) == 0) {
+            return &kept->list[kept->latest = i];
         }
     }
-    problems->next += problems->count == KEPT && problems->next == problems->latest; /* it is still in use */
-    const size_t i = problems->count < KEPT ? problems->count : problems->next++ % KEPT;
-    problems->next %= KEPT;
-    gm_user_problem_close(&problems->list[i].problem);
-    memset(problems->list[i].modes, 0xff, sizeof problems->list[i].modes); /* if it cannot be opened */
-    problems->count += problems->count < KEPT && i == problems->count;
-    if (!open_frozen(problem, modes, &problems->list[i].problem)) {
+    if (!kept) {
         return NULL;
     }
-    memcpy(problems->list[i].modes, modes, size);
-    problems->latest = i;
-    return &problems->list[i].problem;
+    kept->next =
+        (kept->next + 1 + ((kept->next + 1) % KEPT == kept->latest)) % KEPT; /* the latest is in use */
+    struct gm_problem *opened = &kept->list[kept->next];
+    gm_user_problem_close(opened);
+    if (!open_frozen(problem, modes, opened)) {
+        return NULL;
+    }
+    memcpy(kept->modes[kept->next], modes, size);
+    return &kept->list[kept->latest = kept->next];
 }
 
 static void melt(void *frozen)
 {
-    struct frozen_problems *problems = frozen;
-    for (size_t i = 0; problems && i < problems->count; i++) {
-        gm_user_problem_close(&problems->list[i].problem);
+    struct frozen_problems *kept = frozen;
+    for (size_t i = 0; kept && i < KEPT; i++) {
+        gm_user_problem_close(&kept->list[i]);
     }
-    free(problems);
+    free(kept);
 }
 
 /* ---- motions and kernels ---- */

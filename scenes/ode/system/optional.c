@@ -528,7 +528,10 @@ static double found_error(const struct gm_view *view)
 static const char *why_not_found(const struct gm_view *view)
 {
     const struct unnamed *unnamed = unnamed_of(view);
-    return unnamed && unnamed->lacks[0]
+    return gm_ode_of(view->problem)->rough ? "invariants are not searched: the system is not smooth"
+           : gm_system_scene_of(view)->system.timed
+               ? "invariants are not searched: the rates depend on the time"
+           : unnamed && unnamed->lacks[0]
                ? "the system has no further invariant without a name: list --invariants"
                : NULL;
 }
