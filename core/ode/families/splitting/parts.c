@@ -289,7 +289,8 @@ static void open_corrector(struct work *work, size_t number)
                      zero = gm_formula_constant(graph, 0);
     gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
                *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
-    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = n % 2 == 0;
+    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta),
+         good = n % 2 == gm_ode_of(work->problem)->parts->timed;
     for (size_t i = 0; i < n; i++) {
         momenta[i] = i >= half && i < 2 * half;
         along[i] = rates[i] = zero;
@@ -422,7 +423,7 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
 {
     static _Thread_local char sentence[GM_FAULT_SENTENCE];
     const struct gm_parts_row *row = scheme->coefficients;
-    if (!scheme->word && (row->corrector == 0 || problem->n <= GM_NEWTON_LARGEST)) {
+    if (!scheme->word && row->corrector == 0) {
         return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
