@@ -272,6 +272,9 @@ def faults_are_told(path):
             "strang(A, C)": "A + C is not H, H - A - C = ",
             "strang(A, kinetik)": "a part kinetik (column 11); did you mean kinetic",
             "strang(A, kinetic)": "the rate of a has, beside A + kinetic, -u (-0.2 at the start)",
+            "strang(, kinetic)": "a part has no name",
+            "strang(kinetic, )": "a part has no name",
+            "composition(rk4; 0/0, 1)": "this coefficient is not a number",
             "strang(E, B)": "a known flow of E (column 8), which is neither",
             "strang(A by verlet, B)": "a scheme for any field, of at most 64 components, not A by verlet",
             "composition(strang(A, C); 1)": "A + C is not H"}.items():

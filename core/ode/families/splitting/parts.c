@@ -190,8 +190,8 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
         gm_arena_refuse(
             work->arena,
-            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
-            "gauss4",
+            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor the structure's own kepler: "
+            "write %.40s by gauss4",
             name, column_of(work, name), name);
     }
     const size_t slopes = part->flow.slopes.count;
