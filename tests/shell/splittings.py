@@ -341,6 +341,15 @@ def time_moves_with_the_first_part_without_it():
     check("the name H is reserved" in told, f"a part H: {told}")
 
 
+def rows_do_not_change_a_trajectory():
+    with tempfile.NamedTemporaryFile(suffix=".csv") as rows:
+        for scheme in ("wisdom-holman2", "aba864(kepler, interaction)", "lie(kepler, interaction)"):
+            words = ("outer-planets", "scheme=" + scheme, "steps=40")
+            check(state(*words) == state(*words, "--csv", rows.name, "--every", "7"), f"{scheme}: rows change the motion")
+    measured = run("outer-planets", "scheme=saba4(kepler, interaction)", "steps=200", "--measure", "lyapunov")
+    check("none" not in str(measured) and "None" not in str(measured), f"lyapunov of saba4: {measured}")
+
+
 def main():
     with tempfile.NamedTemporaryFile("w", suffix=".system") as one, \
             tempfile.NamedTemporaryFile("w", suffix=".system") as two:
@@ -357,6 +366,7 @@ def main():
         faults_are_told(one.name)
     parts_are_typed()
     time_moves_with_the_first_part_without_it()
+    rows_do_not_change_a_trajectory()
     sys.exit(failures > 0)
 
 
