@@ -553,6 +553,18 @@ static void check_event(struct gm_user_system *system, const struct gm_system_it
     gm_system_need_graph(system);
 }
 
+static bool holds_time(struct gm_user_system *system, const struct gm_system_item *item)
+{
+    const bool *time = marks_of(system, system->n, 1);
+    size_t i = 0;
+    while (i < item->count &&
+           (item->nodes[i] == GM_NO_NODE ||
+            !gm_formula_holds(&system->graph, item->nodes[i], time, system->variable_count))) {
+        i++;
+    }
+    return i < item->count;
+}
+
 static void check_item(struct gm_user_system *system, struct gm_system_item *item, bool forced)
 {
     struct broken broken = {NULL, GM_NO_NODE};
@@ -575,6 +587,13 @@ static void check_item(struct gm_user_system *system, struct gm_system_item *ite
         break;
     case GM_WORD_EVENT:
         check_event(system, item);
+        break;
+    case GM_WORD_PART:
+    case GM_WORD_LET:
+        item->check = system->timed || !holds_time(system, item) ? GM_UNTESTED : GM_NOT_ZERO;
+        gm_system_refuse_if(
+            system, item->check == GM_NOT_ZERO && item->word == GM_WORD_PART, item->place,
+            "a part holds the time, which the whole does not hold: no other part can move it");
         break;
     case GM_WORD_CASIMIR:
         item->check = check_casimir(system, item->nodes[0]);

@@ -52,12 +52,12 @@ const char *gm_fact_word(enum gm_fact fact)
 }
 
 /* The search, inside a body of the system's arena. Sets of variables: coordinates; momenta, or velocities; all that
-   moves; `own` marks none, and now and then one. */
+   moves; the time; `own` marks none, and now and then one. */
 struct search {
     struct gm_user_system *system;
     struct gm_finding *findings;
     gm_node_id *nodes; /* of facets */
-    bool *q, *p, *all, *own;
+    bool *q, *p, *all, *own, *time;
 };
 
 /* true if a node depends on a marked variable */
@@ -211,17 +211,21 @@ static bool need_vanishing(const struct search *search, struct gm_finding *findi
 }
 
 /* Tests the energy, or L with velocities for momenta: if L = T(v) - V(q), H separates as well, and the
-   transform of a quadratic T is quadratic. */
+   transform of a quadratic T is quadratic. The time moves with q, so T may not hold it. */
 static void find_split(const struct search *search)
 {
     struct gm_finding *separable = &search->findings[GM_FACT_SEPARABLE],
                       *nystrom = &search->findings[GM_FACT_NYSTROM];
     const gm_node_id energy = search->system->energy;
     const bool lagrangian = search->system->kind == GM_LAGRANGIAN;
-    const bool *const both[] = {search->p, search->q}, *const thrice[] = {search->p, search->p, search->p};
+    const bool *const both[] = {search->p, search->q}, *const thrice[] = {search->p, search->p, search->p},
+                      *const moving[] = {search->p, search->time};
     separable->asked = nystrom->asked = true;
-    if (!need_vanishing(search, separable, energy, both, 2)) {
-        separable->why = lagrangian ? "holds coordinates and velocities" : NULL;
+    const bool splits = need_vanishing(search, separable, energy, both, 2);
+    if (!splits || !need_vanishing(search, separable, energy, moving, 2)) {
+        separable->why = splits ? lagrangian ? "holds velocities and the time" : "holds momenta and the time"
+                         : lagrangian ? "holds coordinates and velocities"
+                                      : NULL;
         deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
     } else if (!need_vanishing(search, nystrom, energy, thrice, 3)) {
         nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;
@@ -958,10 +962,12 @@ static void find_all(struct gm_arena *arena, void *data)
     struct gm_finding *findings = search->findings;
     const size_t half = system->n / 2, count = system->variable_count, mark = gm_arena_mark(arena);
     const enum gm_system_kind kind = system->kind;
-    search->q = gm_arena_take(arena, 4 * count, sizeof *search->q);
+    search->q = gm_arena_take(arena, 5 * count, sizeof *search->q);
     search->p = search->q + count;
     search->all = search->p + count;
     search->own = search->all + count;
+    search->time = search->own + count;
+    search->time[system->n] = system->timed;
     memset(search->q, true, half);
     memset(search->all, true, system->n);
     if (kind <= GM_LAGRANGIAN || kind == GM_RATES) {

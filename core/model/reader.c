@@ -224,7 +224,8 @@ static void read_named(struct gm_reading *reading, const struct gm_read_line *li
         number_item(reading, item, target.index);
     }
     const size_t length = strlen(item->name);
-    gm_system_refuse_if(system, gm_reading_reserves(item->name, length), target.name.begin,
+    const bool whole = item->word == GM_WORD_PART && strcmp(item->name, "H") == 0;
+    gm_system_refuse_if(system, whole || gm_reading_reserves(item->name, length), target.name.begin,
                         "the name %.60s" GM_RESERVED, item->name);
     const struct gm_entry *named = gm_reading_entry(reading, item->name, length, false, 0);
     if (named && named->place != target.name.begin) {

@@ -555,6 +555,7 @@ static void compute(struct reading *reading)
             const gm_node_id node = reading->nodes[word][i];
             number->value = values[node];
             number->ball = balls[node];
+            fail_if(reading, isnan(number->value), number->place, "this coefficient is not a number");
             fail_if(reading, !(isfinite(number->ball.radius) && fabs(number->value) < 1e6), number->place,
                     "this coefficient is %g: no finite number below a million", number->value);
         }

@@ -3,6 +3,7 @@
 # 50 digits from their files, and what is refused.
 # Usage: splittings.py GEOMINT SOURCE_ROOT
 import json
+import math
 import re
 import subprocess
 import sys
@@ -271,6 +272,9 @@ def faults_are_told(path):
             "strang(A, C)": "A + C is not H, H - A - C = ",
             "strang(A, kinetik)": "a part kinetik (column 11); did you mean kinetic",
             "strang(A, kinetic)": "the rate of a has, beside A + kinetic, -u (-0.2 at the start)",
+            "strang(, kinetic)": "a part has no name",
+            "strang(kinetic, )": "a part has no name",
+            "composition(rk4; 0/0, 1)": "this coefficient is not a number",
             "strang(E, B)": "a known flow of E (column 8), which is neither",
             "strang(A by verlet, B)": "a scheme for any field, of at most 64 components, not A by verlet",
             "composition(strang(A, C); 1)": "A + C is not H"}.items():
@@ -310,6 +314,42 @@ def parts_are_typed():
     check(re.search(r"^  A +.*\n  B ", listed, re.M), "list kepler part=... has no parts A and B")
 
 
+def time_moves_with_the_first_part_without_it():
+    # Kick, drift, kick, whose kicks move the time, of H = p^2/2 (1 + sin(t)/2) + q^2/2; a splitting into T and V would
+    # move it with the drift.
+    q, p, h = 1., 0., .1
+    for k in range(20):
+        p -= h/2*q
+        q += h*(1 + math.sin((k + .5)*h)/2)*p
+        p -= h/2*q
+    driven = ("system", "H=p^2/2*(1 + sin(t)/2) + q^2/2", "q=1", "p=0", "dt=.1", "steps=20")
+    moved = state(*driven, "part=A = p^2/2*(1 + sin(t)/2), B = q^2/2", "scheme=strang(B, A)")
+    check(distance(moved[:2], [q, p]) < 1e-14, f"strang(B, A) with t in A: {moved}")
+    for words in ("verlet", "yoshida4", "symplectic-euler", "blanes-moan-nystrom6", "sabac2", "strang(kinetic, potential)"):
+        told = run(*driven, "scheme=" + words)
+        check(isinstance(told, str) and "it needs a" in told, f"{words} takes t in T: {told}")
+    listed = subprocess.run([GEOMINT, "list", *driven[:4], "--long"], capture_output=True, text=True).stdout
+    check(re.search("separable +no .* holds momenta and the time", listed), "t in T is said to separate")
+    for system in (("rate=x = y, y = -x^3 + cos(t)/2", "x=1", "y=0"), ("H=p^2/2 + q^4/4 + q*cos(t)", "q=1", "p=.2")):
+        near, far = (distance(state("system", *system, f"dt={h}", "until=2", "scheme=sabac2")[:2],
+                              state("system", *system, "dt=.01", "until=2", "scheme=gauss8")[:2]) for h in (.05, .1))
+        check(3.8 < math.log2(far/near) < 4.2, f"sabac2 with t in V: {far} {near}")
+    told = run("system", "H=p^2/2 + q^2/2", "part=A = p^2/2*(1 + sin(t)), B = q^2/2 - p^2/2*sin(t)", "q=1", "p=0",
+               "scheme=strang(A, B)", "steps=1")
+    check("a part holds the time" in told, f"two parts hold t: {told}")
+    told = run("system", "H=p^2/2 + q^2/2", "part=H = p^2/2", "q=1", "p=0", "steps=1")
+    check("the name H is reserved" in told, f"a part H: {told}")
+
+
+def rows_do_not_change_a_trajectory():
+    with tempfile.NamedTemporaryFile(suffix=".csv") as rows:
+        for scheme in ("wisdom-holman2", "aba864(kepler, interaction)", "lie(kepler, interaction)"):
+            words = ("outer-planets", "scheme=" + scheme, "steps=40")
+            check(state(*words) == state(*words, "--csv", rows.name, "--every", "7"), f"{scheme}: rows change the motion")
+    measured = run("outer-planets", "scheme=saba4(kepler, interaction)", "steps=200", "--measure", "lyapunov")
+    check("none" not in str(measured) and "None" not in str(measured), f"lyapunov of saba4: {measured}")
+
+
 def main():
     with tempfile.NamedTemporaryFile("w", suffix=".system") as one, \
             tempfile.NamedTemporaryFile("w", suffix=".system") as two:
@@ -325,6 +365,8 @@ def main():
         bodies_move_in_jacobi_coordinates()
         faults_are_told(one.name)
     parts_are_typed()
+    time_moves_with_the_first_part_without_it()
+    rows_do_not_change_a_trajectory()
     sys.exit(failures > 0)
 
 

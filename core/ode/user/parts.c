@@ -24,7 +24,10 @@ static const struct gm_system_item *item_of(const struct gm_user_system *system,
         const struct gm_system_item *item = &system->items[i];
         const bool is_part =
             item->word == GM_WORD_PART || (item->word == GM_WORD_LET && system->kind != GM_RATES);
-        found = is_part && strcmp(item->name, name) == 0 && item->nodes[0] != GM_NO_NODE ? item : found;
+        found = is_part && strcmp(item->name, name) == 0 && item->nodes[0] != GM_NO_NODE &&
+                        item->check != GM_NOT_ZERO /* else it has a time that the equations do not have */
+                    ? item
+                    : found;
     }
     return found;
 }
@@ -193,11 +196,27 @@ static const char *sum_of(struct gm_arena *arena, const char *const *names, size
     return text;
 }
 
+/* Returns true for two parts of the structure of which one is made as all that the other is not. */
+static bool is_pair(const struct gm_user_system *system, const char *const *names)
+{
+    size_t which[2] = {0};
+    for (size_t k = 0; k < 2; k++) {
+        while (which[k] < STRUCTURAL && strcmp(structural[which[k]], names[k]) != 0) {
+            which[k]++;
+        }
+        which[k] = item_of(system, names[k]) ? STRUCTURAL : which[k];
+    }
+    return which[0] < STRUCTURAL && (which[0] ^ 1) == which[1];
+}
+
 static const char *parts_differ(struct gm_arena *arena, const struct gm_problem *problem,
                                 const char *const *names, size_t count)
 {
     const struct gm_user_system *system = system_of(problem);
     const size_t n = system->n;
+    if (count == 2 && is_pair(system, names)) {
+        return NULL;
+    }
     struct gm_formula *graph = gm_arena_take(arena, 1, sizeof *graph);
     gm_node_id *rest = gm_arena_take(arena, problem->n + 1, sizeof *rest),
                *rates = gm_arena_take(arena, problem->n + 1, sizeof *rates);

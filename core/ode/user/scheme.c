@@ -324,7 +324,11 @@ static struct gm_named_part read_part(const struct making *making, struct gm_spa
 static void read_parts(const struct making *making, struct gm_span rest, struct gm_parts_row *row)
 {
     struct gm_span piece;
+    const size_t end = rest.end;
     for (; gm_span_take(making->source->text, &rest, ",", &piece); row->parts++) {
+        if (piece.begin == piece.end || (rest.begin == end && making->source->text[end - 1] == ',')) {
+            fail(making, piece.begin, "a part has no name: it is missing beside this comma");
+        }
         if (row->parts == GM_MOST_PARTS / 2) {
             fail(making, piece.begin, "a splitting has at most %d parts", GM_MOST_PARTS / 2);
         }

@@ -89,6 +89,10 @@ struct work {
     /* values: of a part's tape. If a step begins with the flow it ends with, they are known at the state `kept`. */
     double *values, *scratch, *moved, *kept, *member, *matrix;
     bool known, jacobi; /* jacobi: the state is in Jacobi coordinates */
+    /* If all flows are in Jacobi coordinates: the state that a task ended with, and the one before the conversion, and
+       before a flow that the next step joins, from which the next task continues. No bits depend on the tasks. */
+    double *ended, *carried;
+    bool carries, continued;
 };
 
 static bool is_jacobi(const struct part *part)
@@ -190,8 +194,8 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
         gm_arena_refuse(
             work->arena,
-            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor Kepler's: write %.40s by "
-            "gauss4",
+            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor the structure's own kepler: "
+            "write %.40s by gauss4",
             name, column_of(work, name), name);
     }
     const size_t slopes = part->flow.slopes.count;
@@ -289,7 +293,8 @@ static void open_corrector(struct work *work, size_t number)
                      zero = gm_formula_constant(graph, 0);
     gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
                *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
-    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta), good = n % 2 == 0;
+    bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta),
+         good = n % 2 == gm_ode_of(work->problem)->parts->timed;
     for (size_t i = 0; i < n; i++) {
         momenta[i] = i >= half && i < 2 * half;
         along[i] = rates[i] = zero;
@@ -378,6 +383,13 @@ static void open_work(struct gm_arena *arena, void *data)
         work->flows[i].entries = gm_arena_take(arena, most, sizeof *work->flows[i].entries);
         largest = n + part->flow.slopes.count > largest ? n + part->flow.slopes.count : largest;
     }
+    const size_t all = n * work->problem->m;
+    work->carries = work->flow_count > 1;
+    for (size_t i = 0; i < work->flow_count; i++) {
+        work->carries = work->carries && is_jacobi(&work->parts[work->flows[i].part]);
+    }
+    work->ended = gm_arena_take(arena, work->carries ? 2 * all : 0, sizeof *work->ended);
+    work->carried = work->ended + (work->carries ? all : 0);
     work->values = gm_arena_take(arena, largest + 6 * n, sizeof *work->values);
     work->scratch = work->values + largest;
     work->moved = work->scratch + 3 * n;
@@ -411,7 +423,7 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
 {
     static _Thread_local char sentence[GM_FAULT_SENTENCE];
     const struct gm_parts_row *row = scheme->coefficients;
-    if (!scheme->word && (row->corrector == 0 || problem->n <= GM_NEWTON_LARGEST)) {
+    if (!scheme->word && row->corrector == 0) {
         return NULL; /* the facets solve the parts of the program's own rows */
     }
     struct work *work = open_by(problem, scheme, sentence);
@@ -585,16 +597,23 @@ static double time_of(const struct gm_task *task, const struct work *work, size_
     if (joined && flow == last && step + 1 < task->steps) {
         return 0;
     }
-    return (flow->fraction + (joined && flow == first && step > 0 ? last->fraction : 0)) * task->dt;
+    return (flow->fraction +
+            (joined && flow == first && (step > 0 || work->continued) ? last->fraction : 0)) *
+           task->dt;
 }
 
 /* One evaluation is a flow of the last part. */
 static enum gm_status make_step(const struct gm_task *task, struct gm_progress *progress)
 {
     struct work *work = task->workspace;
-    const size_t m = task->problem->m;
+    const size_t m = task->problem->m, n = task->problem->n;
     for (size_t i = 0; i < work->flow_count; i++) {
         const double h = time_of(task, work, i, progress->done);
+        const bool joined = work->flows[0].part == work->flows[i].part;
+        if (work->carries && joined && i > 0 && i + 1 == work->flow_count &&
+            progress->done + 1 == task->steps) {
+            memcpy(work->carried, task->out, n * m * sizeof *work->carried);
+        }
         if (h != 0 && !advance_flow(task, work, i, h, task->out, progress)) {
             progress->unsolved.obstacle = GM_NOT_FINITE;
             return GM_NO_CONVERGENCE;
@@ -608,7 +627,10 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct work *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
-    memcpy(task->out, task->y, task->problem->n * task->problem->m * sizeof(double));
+    const size_t size = task->problem->n * task->problem->m * sizeof(double);
+    work->continued = work->carries && work->dt == task->dt && memcmp(work->ended, task->y, size) == 0;
+    work->jacobi = work->continued;
+    memcpy(task->out, work->continued ? work->carried : task->y, size);
     for (size_t i = 0; i < work->flow_count && work->dt != task->dt; i++) {
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
@@ -620,7 +642,14 @@ static struct gm_progress loop(const struct gm_task *task)
     while (progress.done < task->steps && (progress.status = make_step(task, &progress)) == GM_OK) {
         progress.done++;
     }
+    if (work->carries && work->flows[0].part != work->flows[work->flow_count - 1].part) {
+        memcpy(work->carried, task->out, size);
+    }
     convert(work, false, task->out);
+    if (work->carries) {
+        memcpy(work->ended, task->out, size);
+        work->ended[0] = progress.done == task->steps ? work->ended[0] : NAN;
+    }
     return progress;
 }
 
