@@ -220,12 +220,13 @@ static void find_split(const struct search *search)
     const bool lagrangian = search->system->kind == GM_LAGRANGIAN;
     const bool *const both[] = {search->p, search->q}, *const thrice[] = {search->p, search->p, search->p},
                       *const moving[] = {search->p, search->time};
+    static const char *const why[2][2] = {
+        {NULL, "holds momenta and the time"},
+        {"holds coordinates and velocities", "holds velocities and the time"}};
     separable->asked = nystrom->asked = true;
     const bool splits = need_vanishing(search, separable, energy, both, 2);
     if (!splits || !need_vanishing(search, separable, energy, moving, 2)) {
-        separable->why = splits ? lagrangian ? "holds velocities and the time" : "holds momenta and the time"
-                         : lagrangian ? "holds coordinates and velocities"
-                                      : NULL;
+        separable->why = why[lagrangian][splits];
         deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
     } else if (!need_vanishing(search, nystrom, energy, thrice, 3)) {
         nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;

@@ -34,10 +34,11 @@ enum { GM_MOST_HELD_VERDICTS = 8 };
 /* An invariant of the system along a run. */
 struct gm_followed {
     char name[40];
-    const char *verdict; /* "conserved", "oscillates", "drifts", or "not measured" if the run fails before its end */
-    int64_t steps;       /* that were made */
+    const char
+        *verdict; /* "conserved", "oscillates", "drifts", or "not measured" if the run fails before its end */
+    int64_t steps; /* that were made */
     enum gm_status status;
-    double defect;       /* the largest |x - x0| / |x0|, or |x - x0| if x0 is round-off */
+    double defect; /* the largest |x - x0| / |x0|, or |x - x0| if x0 is round-off */
 };
 enum { GM_MOST_FOLLOWED = 16 };
 

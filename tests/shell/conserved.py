@@ -167,7 +167,7 @@ got = run("run", "kepler", "scheme=projected(rk4; H; symmetric: yes)", "dt=3", "
 check(got.returncode == 2 and json.loads(got.stdout)["status"] == "no-convergence", f"a step too long: {got.stdout}")
 
 for word, said in (("projected(rk4; L, angular_momentum)", "angular_momentum is L"),
-                   ("projected(rk4; X)", "an invariant X (there are H, angular_momentum; those that list --invariants finds are I1, I2")):
+                   ("projected(rk4; X)", "an invariant X (there are H, angular_momentum, and those that list --invariants finds: I1, I2")):
     got = run("run", "kepler", "scheme=" + word, "steps=2")
     check(got.returncode == 1 and said in got.stderr, f"{word}: {got.stderr}")
 check("holds between events" in run("list", "bouncing-ball", "--invariants").stdout, "a bounce changes H")
@@ -253,7 +253,7 @@ for scene, word, sentence in (
         ("kepler", "projected(dopri5; H)", "column 11: dopri5 cannot be a part of a step"),
         ("kepler", "composition(projected(rk4; H); 1)", "column 13: projected(rk4; H) cannot be a part of a step"),
         ("kepler", "relaxed(rk4; constraints)", "column 14: constraints are held alone"),
-        ("kepler", "projected(rk4; Lx)", "needs an invariant Lx (there are H, angular_momentum; those that list --invariants finds"),
+        ("kepler", "projected(rk4; Lx)", "needs an invariant Lx (there are H, angular_momentum, and those that list --invariants finds"),
         ("kepler", "projected(rk4; I3)", "needs an invariant I3"),
         ("kepler", "projected(rk4; r)", "needs a constant r"),
         ("kepler", "projected(rk4; constraints)", "needs constraints"),

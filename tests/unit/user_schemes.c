@@ -1011,7 +1011,7 @@ static void refusals(void **unused)
         {"explicit(0, 1 | 1, 0; 1/2, 1/2)", "1 | 1", "entry 1, 2 is above the diagonal"},
         {"explicit(1/2; 1)", "1/2;", "entry 1, 1 is on the diagonal"},
         {"runge-kutta(1/0; 1)", "1/0", "no finite number"},
-        {"runge-kutta(log(-1); 1)", "log", "no finite number"},
+        {"runge-kutta(log(-1); 1)", "log", "not a number"},
         {"runge-kutta(1e300; 1)", "1e300", "no finite number"},
         {"runge-kutta(1/2; 1", "(1/2", "not closed"},
         {"runge-kutta(1/2; 1) x", " x", "ends before this"},

@@ -118,7 +118,8 @@ static void print_certificate(const struct gm_certificate *certificate)
     print_given_up(certificate);
     for (size_t i = 0; i < certificate->followed_count; i++) {
         const struct gm_followed *followed = &certificate->followed[i];
-        printf("  in 4000 steps %-30s %-12s change %.1e", followed->name, followed->verdict, followed->defect);
+        printf("  in 4000 steps %-30s %-12s change %.1e", followed->name, followed->verdict,
+               followed->defect);
         if (followed->status != GM_OK) {
             printf(" in %" PRId64 " steps, then %s", followed->steps, gm_status_name(followed->status));
         }

@@ -13,6 +13,7 @@
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 #include "core/expression/reader.h"
+#include "core/memory.h"
 #include "core/ode/indicators/periodic.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
@@ -302,7 +303,11 @@ int gm_command_orbit(const struct gm_options *options)
     open_work(work, &problem);
     gm_catch_interrupts();
     gm_interrupts_end(true);
-    gm_command_end_if(options, !gm_periodic_find(&work->orbit), GM_EXIT_MEMORY, "not enough memory");
+    /* a step that memory was too short for looks like one that found no solution */
+    const unsigned long refusals = gm_memory_refusals();
+    const bool found = gm_periodic_find(&work->orbit);
+    gm_command_end_if(options, !found || gm_memory_refusals() != refusals, GM_EXIT_MEMORY,
+                      "not enough memory");
     gm_interrupts_end(false);
     if (options->json) {
         print_json(work);

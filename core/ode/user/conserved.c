@@ -200,8 +200,8 @@ static void resolve(struct gm_arena *arena, void *data)
     if (naming->node == GM_NO_NODE) {
         const char *names = names_of(arena, system);
         refuse(arena, naming,
-               "an invariant %.40s (%s%.160s; those that list --invariants finds are %s1, %s2, ...)",
-               naming->name, names[0] ? "there are " : "the system names none", names, word, word);
+               "an invariant %.40s (there are %.160s%s those that list --invariants finds: %s1, %s2, ...)",
+               naming->name, names, names[0] ? ", and" : "only", word, word);
     }
     if (!trusted) {
         check_rate(arena, naming);
