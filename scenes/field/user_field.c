@@ -173,9 +173,14 @@ static void make_observables(struct gm_user_field *field)
     if (field->kind->equation) { /* laws and symmetries come last */
         add_densities(field);
     }
-    const struct gm_hook *hook = field->kind == &gm_field_waves ? of_file->hook : NULL;
-    const struct gm_observable *rows = hook ? hook->observables : field->kind->observables;
-    const size_t row_count = hook ? hook->observable_count : field->kind->observable_count;
+    const bool moves = field->kind->moves, observed = moves || field->kind == &gm_field_waves;
+    const struct gm_hook *hook =
+        of_file->hook && observed && of_file->hook->on_moving_mesh == moves ? of_file->hook : NULL;
+    const struct gm_observable *rows = field->kind->observables;
+    const size_t row_count = hook && !moves ? 0 : field->kind->observable_count;
+    for (size_t i = 0; hook && i < hook->observable_count; i++) {
+        add(field, hook->observables[i]);
+    }
     for (size_t i = 0; !field->kind->equation && i < row_count; i++) {
         add(field, rows[i]);
     }

@@ -11,7 +11,8 @@ struct gm_hook {
     size_t members; /* members of every lane of a motion; the first is observed */
     /* Moves the members, which all start at one point; y[component * members + member]. */
     void (*place)(double *y);
-    /* They supplement those of a motion, and replace those of waves on a ring. */
+    bool on_moving_mesh; /* of a field: it observes waves on a moving mesh, else those on a ring */
+    /* They supplement those of a motion and of a moving mesh, and replace those of waves on a ring. */
     const struct gm_observable *observables;
     size_t observable_count;
 };
