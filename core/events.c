@@ -190,8 +190,8 @@ static void find_g(const struct gm_event_step *step, const double *look, double 
    that is given. */
 static void settle(const struct gm_event_step *step, const double *look, const double *before, double *g)
 {
-    for (int pass = 0; pass < 3;
-         pass++) { /* where g is 0 the modes of all others are needed, and others need its own */
+    /* where g is 0 the modes of all others are needed, and others need its own */
+    for (int pass = 0; pass < 3; pass++) {
         for (size_t i = first_break(step->problem); i < watched(step); i++) {
             find_g(step, look, g);
             if ((g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {

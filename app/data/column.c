@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "app/data/format.h"
+#include "app/data/column.h"
 #include "render/files/deflate.h"
 
 #include <errno.h>
