@@ -323,7 +323,6 @@ static bool put_texts(FILE *out, const char *text, size_t length, struct gm_faul
     for (size_t i = 0; with_rows[i]; i++) {
         put_rows(out, text, length, with_rows[i], fault);
     }
-    fputc('\n', out);
     return !fault->sentence[0];
 }
 
@@ -363,6 +362,9 @@ int main(int argc, char *argv[])
     }
     for (int i = 3; i < argc && good && families[family].type; i++) {
         good = put_file(out, argv[i], family, true);
+    }
+    if (good) {
+        fputc('\n', out); /* compilers warn of a last line that does not end */
     }
     return out && fclose(out) == 0 && good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
