@@ -433,7 +433,8 @@ static void cavity(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < 3; i++) {
-        const char *const words[][2] = {{"reynolds", ghia[i].reynolds}, {NULL, NULL}};
+        const char *const words[][2] = {
+            {"reynolds", ghia[i].reynolds}, {"columns", "128"}, {"rows", "168"}, {NULL, NULL}};
         struct gm_lane *lane = open_lane("cavity", "steady", words);
         assert_int_equal(gm_run_advance(lane->run, 30), GM_OK);
         assert_true(observe(lane, "change") == 0); /* Newton's method has come to its end */

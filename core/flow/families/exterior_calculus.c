@@ -373,7 +373,7 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
                                   struct gm_progress *progress)
 {
     enum { MOST_CORRECTIONS = 25 };
-    const double roundoff = 1e-9, good_start = 1e-2, factor = carried[LEVEL] < 1000 ? 2.5 : 1.5;
+    const double roundoff = 1e-7, good_start = 0.1, factor = carried[LEVEL] < 1000 ? 2.5 : 1.5;
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
