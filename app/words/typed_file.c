@@ -404,8 +404,9 @@ static bool needs_none(const struct typing *typing, const char *name, bool compo
                      : is_part(typing, name);
 }
 
-/* The names of H that have values as coordinates and momenta, " coordinates=x momenta=y", if none of them
-   is a default one and they make pairs; else "". A momentum begins with p, or is in the second half. */
+/* The names that have values as coordinates and momenta of H, or as coordinates of L, "coordinates=x momenta=y", if
+   none of them is a default one and they make pairs; else "". A momentum begins with p, or is in the second half; L
+   has the velocity v_x of a coordinate x. */
 static const char *tell_pairs(const struct typing *typing)
 {
     const char *lists[] = {"; for other names type coordinates=", " momenta="}, *between[] = {"", ""};
@@ -420,21 +421,24 @@ static const char *tell_pairs(const struct typing *typing)
         while (i < count && strcmp(names[i], name) != 0) {
             i++;
         }
-        if (use.role == VARIABLE && i == count && has_value(typing, name)) {
+        const bool moves =
+            !typing->has[FORMULA_L] || is_used(typing, gm_arena_print(typing->arena, "v_%s", name), VARIABLE);
+        if (use.role == VARIABLE && i == count && has_value(typing, name) && moves) {
             names = gm_arena_resize(typing->arena, names, count + 1, sizeof *names);
             names[count++] = name;
             with_p += name[0] == 'p';
         }
     }
     for (size_t i = 0; i < count; i++) {
-        const bool momentum = 2 * with_p == count ? names[i][0] == 'p' : i >= count / 2;
+        const bool momentum =
+            !typing->has[FORMULA_L] && (2 * with_p == count ? names[i][0] == 'p' : i >= count / 2);
         lists[momentum] =
             gm_arena_print(typing->arena, "%s%s%s", lists[momentum], between[momentum], names[i]);
         between[momentum] = ",";
     }
-    return typing->has[FORMULA_H] && count > 0 && count % 2 == 0
-               ? gm_arena_print(typing->arena, "%s%s", lists[0], lists[1])
-               : "";
+    const bool pairs = count > 0 && (typing->has[FORMULA_L] || (typing->has[FORMULA_H] && count % 2 == 0));
+    return pairs ? gm_arena_print(typing->arena, "%s%s", lists[0], typing->has[FORMULA_H] ? lists[1] : "")
+                 : "";
 }
 
 /* Notes a name without a value, and gives it one, so that faults of the formulas are found first. */

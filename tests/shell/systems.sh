@@ -268,6 +268,7 @@ grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
 
 # momenta by the names of a file are told to be others here
+refused 1 'not given: q= p=; for other names type coordinates=x,y$' run system L='v_x^2/2 + v_y^2/2 - x*y' x=1 y=0 v_x=0 v_y=0
 refused 1 'not given: p=; without coordinates= a momentum is p, not p_q' run system 'H=p_q^2/2 + q^2' q=1 p_q=0
 refused 1 'not given: p=$' run system 'H=q^2' q=1
 
