@@ -23,7 +23,7 @@ static void require(bool holds)
     }
 }
 
-enum { FRAMES = 4, FRAME = 1, RENDERS = 6 };
+enum { FRAMES = 4, FRAME = 1, RENDERS = 12, WORDS = 3 };
 
 static char identity[] = "a render";
 
@@ -35,10 +35,10 @@ struct render {
     size_t size;
 };
 
-static void open_render(struct render *render, char *scene, char *scheme)
+static void open_render(struct render *render, char *words[WORDS])
 {
-    char *words[] = {scene, scheme}, message[GM_MESSAGE], path[] = "/tmp/fuzz-checkpoint-XXXXXX";
-    require(gm_request_parse(&render->request, scheme ? 2 : 1, words, 1, message));
+    char message[GM_MESSAGE], path[] = "/tmp/fuzz-checkpoint-XXXXXX";
+    require(gm_request_parse(&render->request, WORDS, words, 1, message));
     const struct gm_timing *timing = render->request.lanes[0].parameters;
     const double t0 = gm_scene_t0(render->request.scene, timing);
     render->schedule = (struct gm_schedule){
@@ -67,15 +67,21 @@ static void open_render(struct render *render, char *scene, char *scheme)
 static struct render *render_at(size_t i)
 {
     static struct render renders[RENDERS];
-    static char words[RENDERS][2][32] = {{"disc", "scheme=rk4"},
-                                         {"kepler", "scheme=gauss4"},
-                                         {"henon-heiles", "scheme=rk4"},
-                                         {"kepler", "scheme=levi-civita"},
-                                         {"oscillator", "scheme=variational-midpoint"},
-                                         {"sine-gordon", "scheme=leapfrog"}};
+    static char words[RENDERS][WORDS][40] = {{"disc", "scheme=rk4", "points=8"},
+                                             {"kepler", "scheme=gauss4", "eccentricity=0.5"},
+                                             {"henon-heiles", "scheme=rk4", "dt=0.1"},
+                                             {"kepler", "scheme=levi-civita", "eccentricity=0.5"},
+                                             {"oscillator", "scheme=variational-midpoint", "dt=0.1"},
+                                             {"sine-gordon", "scheme=leapfrog", "points=40"},
+                                             {"kepler", "scheme=dopri5", "eccentricity=0.5"},
+                                             {"bouncing-ball", "scheme=gauss4", "dt=0.3"},
+                                             {"kdv", "scheme=box", "points=40"},
+                                             {"soliton", "scheme=multiplier-lobatto4", "points=15"},
+                                             {"room", "rows=10", "tracers=5"},
+                                             {"form-heat", "scheme=rk4", "level=1"}};
     struct render *render = &renders[i];
     if (!render->bytes) {
-        open_render(render, words[i][0], words[i][1]);
+        open_render(render, (char *[]){words[i][0], words[i][1], words[i][2]});
     }
     return render;
 }
