@@ -4,7 +4,7 @@
 
 #include "core/arena.h"
 #include "core/flow/room.h"
-#include "scenes/common/lane.h"
+#include "scenes/common/system/variants.h"
 
 /* The scene of a room, which solves, in the plane,
        omega_t + u . grad omega = nu Laplace omega,   omega = -Laplace psi,   u = (psi_y, -psi_x)
@@ -44,14 +44,6 @@ extern const char *const gm_flows_stars[];
 /* The possible words of the parameter `outlet`, NULL-terminated. */
 extern const char *const gm_flows_outlets[];
 
-/* A room's file; `word` is the word that named it, NULL if the room is one of the program's scenes. */
-struct gm_room_file {
-    const char *text;
-    size_t length;
-    const char *name, *word, *path;
-    bool built_in;
-};
-
 /* The subject of an observable of a room. */
 struct gm_room_subject {
     const struct gm_room_row *row; /* of an observable that is not of a line or a hole */
@@ -62,24 +54,17 @@ struct gm_room_subject {
 };
 
 struct gm_user_room {
-    struct gm_scene scene; /* first, so that a pointer to the scene is one to this */
-    struct gm_arena *arena;
-    struct gm_room_file file;
+    struct gm_system_scene
+        of_file;         /* first: the scene is its first member; its origin has no path if it is built in */
     struct gm_room room; /* the room with its parameters at their defaults */
     struct gm_flows initial;
     const char *mesh;
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
-    const char *words[2];
-    struct gm_parameter rows[GM_ROOM_ROWS];
-    struct gm_observable observables[GM_ROOM_OBSERVED];
     struct gm_room_subject subjects[GM_ROOM_OBSERVED];
     bool overfull;       /* the room has more observables than fit */
     const char *doubled; /* a key that two observables have; NULL: none */
-    size_t observable_count;
     const char *forces
         [2]; /* keys of the forces on the first hole, shown by a room without a scalar; NULL: not shown */
-    struct gm_work work;
-    struct gm_stability stability;
 };
 
 static inline const struct gm_user_room *gm_user_room_of(const void *parameters)
@@ -91,7 +76,7 @@ static inline const struct gm_user_room *gm_user_room_of(const void *parameters)
 static inline const struct gm_room_subject *gm_room_subject_of(const struct gm_view *view)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    return &user_room->subjects[view->observable - user_room->observables];
+    return &user_room->subjects[view->observable - user_room->of_file.observables];
 }
 
 /* Returns the room of a lane, with its parameters. */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/model/equations.h"
 
@@ -53,6 +54,18 @@ struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const 
     struct gm_tape *tape = gm_arena_take(system_scene->arena, 1, sizeof *tape);
     gm_system_open_tape(system_scene, tape, nodes, count);
     return tape;
+}
+
+const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char *name,
+                                const struct gm_built_in **inside)
+{
+    const char *path = system_scene->origin.path ? system_scene->origin.path : "",
+               *slash = name[0] == '/' ? NULL : strrchr(path, '/'),
+               *beside = gm_arena_print(system_scene->arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0,
+                                        path, name);
+    const bool there = path[0] && access(beside, F_OK) == 0;
+    *inside = there ? NULL : gm_built_in_find(GM_FILE_MESH, name);
+    return there || *inside || access(name, F_OK) != 0 ? beside : name;
 }
 
 void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most)

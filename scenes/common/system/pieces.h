@@ -4,6 +4,7 @@
 #ifndef GM_SCENES_COMMON_SYSTEM_PIECES_H
 #define GM_SCENES_COMMON_SYSTEM_PIECES_H
 
+#include "core/files/files.h"
 #include "scenes/common/system/look.h"
 
 /* Returns values of all variables at the start, from the rows that are `given`, or from all rows if NULL.
@@ -12,6 +13,11 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 
 /* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
 double gm_system_half_length(const struct gm_system_lane *lane);
+
+/* Returns the path of the mesh that a file names, in the arena of its scene: beside the file or, without such a file, in
+   the folder where the program runs. Sets *inside to a built-in mesh if there is none there; else to NULL. */
+const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char *name,
+                                const struct gm_built_in **inside);
 
 /* Takes the tables of at most that many observables, which are those of the scene; in a body of its arena. */
 void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most);
