@@ -441,7 +441,7 @@ static enum which which_of(const char *word)
 static long rows_of(enum which which, const double *number, size_t count)
 {
     const double n = count > 2 ? number[2] : 0;
-    if (count > generators[which].rows) {
+    if (count > generators[which].rows && number[generators[which].rows] > 0) { /* 0: the best number */
         return (long)number[generators[which].rows];
     }
     return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
@@ -479,7 +479,8 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
             return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
                            number[i]);
         }
-        if (whole &&
+        const bool best = i == generators[which].rows && number[i] == 0 && generators[which].even;
+        if (whole && !best &&
             !(number[i] == floor(number[i]) && number[i] >= (double)lowest && number[i] <= (double)highest)) {
             return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
                            number[i], lowest, highest);

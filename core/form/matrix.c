@@ -14,6 +14,15 @@ static struct gm_matrix empty(struct gm_arena *arena, size_t rows, size_t column
                               .value = gm_arena_take(arena, count + 1, sizeof(double))};
 }
 
+static struct gm_matrix ended(struct gm_matrix matrix)
+{
+    matrix.width = matrix.rows > 0 ? matrix.start[1] : 0;
+    for (size_t i = 0; i < matrix.rows; i++) {
+        matrix.width = matrix.start[i + 1] - matrix.start[i] == matrix.width ? matrix.width : 0;
+    }
+    return matrix;
+}
+
 struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_matrix *a, double factor)
 {
     struct gm_matrix to = empty(arena, a->columns, a->rows, gm_matrix_count(a));
@@ -33,7 +42,7 @@ struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_ma
     }
     memmove(next + 1, next, to.rows * sizeof *next);
     next[0] = 0;
-    return to;
+    return ended(to);
 }
 
 struct gm_matrix_rows gm_matrix_begin(struct gm_arena *arena, size_t rows, size_t columns, size_t most)
@@ -89,7 +98,7 @@ void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted)
 struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows)
 {
     gm_arena_drop(rows->arena, rows->scratch);
-    return rows->matrix;
+    return ended(rows->matrix);
 }
 
 struct gm_matrix_entries gm_matrix_entries(struct gm_arena *arena, size_t most)
@@ -223,11 +232,41 @@ struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *number
         matrix.column[i] = (int)i;
         matrix.value[i] = factor * (power > 0 ? numbers[i] : 1 / numbers[i]);
     }
-    return matrix;
+    return ended(matrix);
+}
+
+/* For a width that is a constant where this is called. */
+static inline void apply_equal(const struct gm_matrix *a, int width, const double *x, double *y)
+{
+    for (size_t i = 0; i < a->rows; i++) {
+        const double *value = a->value + i * (size_t)width;
+        const int *column = a->column + i * (size_t)width;
+        double sum = 0;
+        for (int k = 0; k < width; k++) {
+            sum += value[k] * x[column[k]];
+        }
+        y[i] = sum;
+    }
 }
 
 void gm_matrix_apply(const struct gm_matrix *a, const double *x, double *y)
 {
+    switch (a->width) {
+    case 1:
+        apply_equal(a, 1, x, y);
+        return;
+    case 2:
+        apply_equal(a, 2, x, y);
+        return;
+    case 3:
+        apply_equal(a, 3, x, y);
+        return;
+    case 5:
+        apply_equal(a, 5, x, y);
+        return;
+    default:
+        break;
+    }
     for (size_t i = 0; i < a->rows; i++) {
         double sum = 0;
         for (int k = a->start[i]; k < a->start[i + 1]; k++) {

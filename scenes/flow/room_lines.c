@@ -182,24 +182,22 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_system_item *profile =
         along ? gm_system_item_named(&user_room->room.system, GM_WORD_PROFILE, along) : NULL;
-    size_t i = 0, kind = 0;
+    struct gm_system_scene *of_file = &user_room->of_file;
+    size_t kind = 0;
     while (kind < GM_ROOM_KINDS && (strcmp(gm_room_rows[kind].observable.key, item->name) != 0 ||
                                     gm_room_rows[kind].along != (along != NULL))) {
         kind++;
     }
-    while (i < user_room->of_file.observable_count &&
-           strcmp(user_room->of_file.observables[i].key, item->name) != 0) {
-        i++;
+    int i = gm_scene_observable(&of_file->scene, item->name);
+    if (i < 0) {
+        gm_system_refuse_if(&user_room->room.system, kind == GM_ROOM_KINDS || (along && !profile),
+                            item->place,
+                            "this is nothing that is observed of a room, or of a profile that it has");
+        i = (int)of_file->observable_count;
+        gm_room_observe(user_room, gm_room_rows[kind].observable,
+                        (struct gm_room_subject){.row = &gm_room_rows[kind], .profile = profile});
     }
-    if (i == user_room->of_file.observable_count) {
-        gm_system_refuse_if(
-            &user_room->room.system, kind == GM_ROOM_KINDS || i == GM_ROOM_OBSERVED || (along && !profile),
-            item->place, "this is nothing that is observed of a room, or of a profile that it has");
-        user_room->of_file.observables[i] = gm_room_rows[kind].observable;
-        user_room->subjects[user_room->of_file.observable_count++] =
-            (struct gm_room_subject){.row = &gm_room_rows[kind], .profile = profile};
-    }
-    gm_written_options(&user_room->of_file.observables[i], item);
+    gm_written_options(&of_file->observables[i], item);
 }
 
 void gm_room_take_lines(struct gm_user_room *user_room)
@@ -215,7 +213,6 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
         observe(user_room, item);
     }
-    scene->observable_count = of_file->observable_count;
     if (gm_written_schemes(of_file->arena, system->texts[GM_WORD_SCHEMES],
                            &(struct gm_problem){.kind = &gm_kind_flow, .m = 1}, of_file->schemes) > 0) {
         scene->schemes = of_file->schemes;

@@ -61,8 +61,6 @@ struct gm_user_room {
     const char *mesh;
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
     struct gm_room_subject subjects[GM_ROOM_OBSERVED];
-    bool overfull;       /* the room has more observables than fit */
-    const char *doubled; /* a key that two observables have; NULL: none */
     const char *forces
         [2]; /* keys of the forces on the first hole, shown by a room without a scalar; NULL: not shown */
 };
@@ -85,6 +83,9 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
+/* Adds an observable, whose subject is this one, while the scene is made. */
+void gm_room_observe(struct gm_user_room *user_room, struct gm_observable row,
+                     struct gm_room_subject subject);
 /* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
 /* Writes rows of CSV: published points, and profiles. */

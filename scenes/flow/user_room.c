@@ -314,14 +314,6 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     struct gm_fault fault;
     char group[GM_TEXT_SIZE];
     enum gm_vertex_kind outlet = GM_VERTEX_SOFT;
-    if (user_room->overfull) {
-        return gm_refuse(sentence,
-                         "a room has at most %d observables: two of an opening, three of a probe or a hole",
-                         GM_ROOM_OBSERVED);
-    }
-    if (user_room->doubled) {
-        return gm_refuse(sentence, "two of the room's names lead to the observable %s", user_room->doubled);
-    }
     if (gm_cholesky_missing()) {
         return gm_refuse(sentence, "the equations of a flow are solved by SuiteSparse: %s",
                          gm_cholesky_missing());
@@ -505,8 +497,14 @@ static const char *idle(const void *parameters, const char *key)
     return NULL;
 }
 
-/* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names
-   become _. Too many of them, and a repeated key, are noted. */
+void gm_room_observe(struct gm_user_room *user_room, struct gm_observable row, struct gm_room_subject subject)
+{
+    const struct gm_system_measure *measure =
+        gm_system_add_observable(&user_room->of_file, row, GM_ROOM_OBSERVED);
+    user_room->subjects[measure - user_room->of_file.measures] = subject;
+}
+
+/* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names become _. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
                     struct gm_room_subject subject)
 {
@@ -534,29 +532,21 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
         [CIRCULATION] = {"circulation", "circulation", {{2, -1, 0}}, NULL},
     };
     for (int what = (int)from; what <= (int)to; what++) {
-        const size_t i = user_room->of_file.observable_count;
-        if (i == GM_ROOM_OBSERVED) {
-            user_room->overfull = true;
-            return;
-        }
         char *key = gm_arena_print(user_room->of_file.arena, "%s_%s", name, rows[what].what),
              unit[GM_ROOM_UNIT + 8];
         for (char *at = key; *at; at++) {
             *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
         }
-        for (size_t k = 0; k < i && !user_room->doubled; k++) {
-            const char *other = user_room->of_file.observables[k].key;
-            user_room->doubled = strcmp(other, key) == 0 ? other : NULL;
-        }
-        user_room->of_file.observables[i] = (struct gm_observable){
-            .key = key,
-            .title = gm_arena_print(user_room->of_file.arena, "%s %s%s", name, rows[what].title,
-                                    gm_room_beside_unit(user_room, rows[what].powers, unit)),
-            .evaluate = observe_local,
-            .missing = rows[what].missing};
         subject.what = what;
-        user_room->subjects[i] = subject;
-        user_room->of_file.observable_count++;
+        gm_room_observe(
+            user_room,
+            (struct gm_observable){
+                .key = key,
+                .title = gm_arena_print(user_room->of_file.arena, "%s %s%s", name, rows[what].title,
+                                        gm_room_beside_unit(user_room, rows[what].powers, unit)),
+                .evaluate = observe_local,
+                .missing = rows[what].missing},
+            subject);
     }
 }
 
@@ -567,14 +557,12 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
     char unit[GM_ROOM_UNIT + 8];
     for (const struct gm_room_row *row = gm_room_rows + GM_ROOM_COMMON;
          row + !heat < gm_room_rows + GM_ROOM_KINDS; row++) {
-        struct gm_observable *observable =
-            &user_room->of_file.observables[user_room->of_file.observable_count];
-        user_room->subjects[user_room->of_file.observable_count++].row = row;
-        *observable = row->observable;
-        observable->title = row->of_scalar && scalar
-                                ? gm_arena_print(user_room->of_file.arena, "%s %s", row->of_scalar, scalar)
-                                : gm_arena_print(user_room->of_file.arena, "%s%s", observable->title,
-                                                 gm_room_beside_unit(user_room, row->powers, unit));
+        struct gm_observable observable = row->observable;
+        observable.title = row->of_scalar && scalar
+                               ? gm_arena_print(user_room->of_file.arena, "%s %s", row->of_scalar, scalar)
+                               : gm_arena_print(user_room->of_file.arena, "%s%s", observable.title,
+                                                gm_room_beside_unit(user_room, row->powers, unit));
+        gm_room_observe(user_room, observable, (struct gm_room_subject){.row = row});
     }
 }
 

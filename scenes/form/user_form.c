@@ -76,19 +76,8 @@ static double observe(const struct gm_view *view)
 
 static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm_form_subject subject)
 {
-    struct gm_system_scene *of_file = &scene->of_file;
-    for (size_t k = 0; k < of_file->observable_count; k++) {
-        if (gm_observables_clash(row.key, of_file->observables[k].key)) {
-            gm_arena_refuse(of_file->arena, "there are two observables %s", row.key);
-        }
-    }
-    if (of_file->observable_count == GM_MOST_FORM_OBSERVABLES) {
-        gm_arena_refuse(of_file->arena, "a system of forms has at most %d observables",
-                        GM_MOST_FORM_OBSERVABLES);
-    }
-    of_file->measures[of_file->observable_count] =
+    *gm_system_add_observable(&scene->of_file, row, GM_MOST_FORM_OBSERVABLES) =
         (struct gm_system_measure){.what = subject.what, .index = subject.index};
-    of_file->observables[of_file->observable_count++] = row;
 }
 
 /* Adds an observable of a form, whose key and title have its name. */
@@ -157,7 +146,6 @@ static void make_observables(struct gm_form_scene *scene)
         add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
             (struct gm_form_subject){GM_FORM_FACT, i});
     }
-    of_file->scene.observable_count = of_file->observable_count;
 }
 
 /* ---- keys ---- */

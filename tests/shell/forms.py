@@ -198,6 +198,7 @@ REFUSED = [
     (WAVE, "sphere 1 2", "torus 2 1 20 7", "not an even number"),
     (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
     (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
+    (WAVE, "sphere 1 2", "sphere; width 2", "2:15: a mesh has at most five numbers; those of a rectangle may be named"),
     (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
     (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "and its least star entry is -"),
     (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),
@@ -310,6 +311,12 @@ check([form.get("equation") for form in vorticity["forms"][:2]] == [None, "0-for
       [factor["symmetric"] for factor in vorticity["factors"]] == [True], f"{vorticity}")
 # the lower triangle of the matrix is within its factor: 2562 vertices and 7680 edges
 check(vorticity["factors"][0]["entries"] > 2562 + 7680, "the size of a factor")
+
+# the numbers of a rectangle in their order, or with their names
+check(observed("form-maxwell", "mesh=rectangle; height 1; width 2; edges 16; strips 10", "steps=20") ==
+      observed("form-maxwell", "mesh=rectangle 2 1 16 10", "steps=20"), "numbers with names make another rectangle")
+check(observed("form-darcy", "mesh=rectangle 2 1 16; irregular 0.1")["vertices"] ==
+      observed("form-darcy", "mesh=rectangle 2 1 16")["vertices"], "the best number of strips is another one")
 
 # a harmonic field goes round both circles alike, and a place is found on every mesh
 found = written("""geomint: 1

@@ -329,7 +329,7 @@ wrong 'wrong.room:5:21: the speed is not finite' 'inlet: vent speed = 1/(s-s)'
 wrong 'no more enters by the profile' 'inlet: vent flow = 0.05 speed = sin(2*pi*s)'
 wrong 'wrong.room:5:8: no more enters by the profile' 'inlet: vent speed = -0.01'
 wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
-wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
+wrong 'there are two observables a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
 wrong 'at most 160 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # parameters, choices and rectangles of one's own
 wrong 'wrong.room:5:12: a name was expected' 'parameter: 3 = 1'
@@ -401,6 +401,15 @@ boxed 'keep: has two numbers, x, y' 'width 1; height 1; edges 8; keep 0, 1, 2'
 boxed 'boxed.room:3:8: no edge of the rectangle is called door: it needs a line side: door; x = 0' \
     'width 1; height 1; edges 8' 'inlet: door  flow = 1'
 boxed 'boxed.room:4:1: side: is given twice' 'width 1; height 1; edges 8' 'side: a; x = 0\nside: a; x = 1'
+
+# the numbers of a rectangle in their order, or with their names
+shaped() {
+    printf '%s\n' "mesh: rectangle$1" 'viscosity: 0.1' 'start: vorticity = x*(1 - x)' 'wall: all  scalar = 0' >shaped.room
+    state_of ./shaped.room steps=3
+}
+[ "$(shaped ' 1 0.5 8 6; irregular 0.1')" = "$(shaped '; height 0.5; width 1; edges 8; strips 6; irregular 0.1')" ] ||
+    fail 'numbers with names make another rectangle'
+boxed 'a rectangle has width, height' 'width 1; height 1; edges 8; heigth 2'
 
 # a wall slips where it says so
 slipping() {

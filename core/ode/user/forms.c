@@ -614,9 +614,9 @@ static void solve(struct own *own, double t)
     memset(right, 0, own->size * sizeof *right);
     gm_form_values_run(&own->equations, t, own->forms);
     for (size_t k = 0; k < model->unknown_count; k++) {
-        const size_t form = model->unknowns[k], first = own->offset[form];
+        const size_t form = model->unknowns[k], first = own->offset[form], size = size_of(own, form);
         const double *residual = gm_form_values_root(&own->equations, k);
-        for (size_t j = 0; j < size_of(own, form); j++) {
+        for (size_t j = 0; j < size; j++) {
             right[first + j] = -residual[j] * own->weight[first + j];
         }
         remove_means(own, form, right, true);
@@ -706,7 +706,8 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
     for (size_t k = first; k < last; k++) {
         const size_t form = model->fields[k], offset = own->offset[form];
         const double *rate = gm_form_values_root(&own->rates, k);
-        for (size_t j = 0; j < size_of(own, form); j++) {
+        const size_t size = size_of(own, form);
+        for (size_t j = 0; j < size; j++) {
             f[offset - base + j] = own->held[offset + j] ? 0 : rate[j];
         }
     }
@@ -1265,6 +1266,7 @@ static void make(struct gm_arena *arena, void *data)
     make_arcs(own, &own->observed);
     own->rates.closings = own->equations.closings = own->observed.closings = own->held_values.closings =
         own->closings;
+    own->equations.fixed = own->held_changes ? 0 : GM_NEEDS_UNKNOWNS; /* it is run at those that are given */
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
         point_at(own, own->start);

@@ -75,6 +75,23 @@ void gm_system_take_observables(struct gm_system_scene *system_scene, size_t mos
     system_scene->scene.observables = system_scene->observables;
 }
 
+struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *system_scene,
+                                                   struct gm_observable row, size_t most)
+{
+    const size_t count = system_scene->observable_count;
+    for (size_t k = 0; k < count; k++) {
+        if (gm_observables_clash(row.key, system_scene->observables[k].key)) {
+            gm_arena_refuse(system_scene->arena, "there are two observables %s", row.key);
+        }
+    }
+    if (count == most) {
+        gm_arena_refuse(system_scene->arena, "a system of this kind has at most %zu observables", most);
+    }
+    system_scene->observables[count] = row;
+    system_scene->scene.observable_count = ++system_scene->observable_count;
+    return &system_scene->measures[count];
+}
+
 /* ---- keys ---- */
 
 void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,

@@ -22,6 +22,11 @@ const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char
 /* Takes the tables of at most that many observables, which are those of the scene; in a body of its arena. */
 void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most);
 
+/* Adds an observable to them. Returns its measure, which the caller sets. Refuses a key that is there, and more than
+   `most`. */
+struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *system_scene,
+                                                   struct gm_observable row, size_t most);
+
 /* Opens a tape whose inputs are all variables, so that lanes with different parameters share it. It lives as
    long as the scene. In a body of the scene's arena. */
 void gm_system_open_tape(struct gm_system_scene *system_scene, struct gm_tape *tape, const gm_node_id *nodes,
