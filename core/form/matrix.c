@@ -235,15 +235,15 @@ struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *number
     return ended(matrix);
 }
 
-/* For a width that is a constant where this is called. */
-static inline void apply_equal(const struct gm_matrix *a, int width, const double *x, double *y)
+/* The same for rows of a width that is a constant of the call; 0: they differ. */
+static inline void apply(const struct gm_matrix *a, int width, const double *x, double *y)
 {
-    for (size_t i = 0; i < a->rows; i++) {
-        const double *value = a->value + i * (size_t)width;
-        const int *column = a->column + i * (size_t)width;
+    for (int i = 0; i < (int)a->rows; i++) {
+        const int begin = width > 0 ? i * width : a->start[i],
+                  end = width > 0 ? width : a->start[i + 1] - begin;
         double sum = 0;
-        for (int k = 0; k < width; k++) {
-            sum += value[k] * x[column[k]];
+        for (int k = 0; k < end; k++) {
+            sum += a->value[begin + k] * x[a->column[begin + k]];
         }
         y[i] = sum;
     }
@@ -253,25 +253,18 @@ void gm_matrix_apply(const struct gm_matrix *a, const double *x, double *y)
 {
     switch (a->width) {
     case 1:
-        apply_equal(a, 1, x, y);
-        return;
-    case 2:
-        apply_equal(a, 2, x, y);
-        return;
-    case 3:
-        apply_equal(a, 3, x, y);
-        return;
-    case 5:
-        apply_equal(a, 5, x, y);
-        return;
-    default:
+        apply(a, 1, x, y);
         break;
-    }
-    for (size_t i = 0; i < a->rows; i++) {
-        double sum = 0;
-        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            sum += a->value[k] * x[a->column[k]];
-        }
-        y[i] = sum;
+    case 2:
+        apply(a, 2, x, y);
+        break;
+    case 3:
+        apply(a, 3, x, y);
+        break;
+    case 5:
+        apply(a, 5, x, y);
+        break;
+    default:
+        apply(a, 0, x, y);
     }
 }

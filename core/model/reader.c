@@ -632,7 +632,7 @@ static void read_generator(struct gm_reading *reading, const struct gm_read_line
             mesh.number >= GM_MESH_NUMBERS ||
                 (named && strcmp(item->name, "rectangle") != 0 && strcmp(item->name, "flat-torus") != 0),
             mesh.value.begin,
-            "a mesh has at most five numbers; those of a rectangle may be named: width, "
+            "a mesh has at most five numbers, and a rectangle alone names them: width, "
             "height, edges, strips, irregular");
         numbers[mesh.number] = mesh.value;
         count = mesh.number >= count ? mesh.number + 1 : count;

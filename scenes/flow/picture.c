@@ -6,7 +6,7 @@
 
 #include "core/functions/functions.h"
 #include "scenes/common/graph.h"
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 enum { MOST_BESIDE_GRAPHS = 4 };
 

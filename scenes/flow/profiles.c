@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts through a room: drawn with exact and published values, and written as rows of numbers. */
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <string.h>

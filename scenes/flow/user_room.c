@@ -497,13 +497,6 @@ static const char *idle(const void *parameters, const char *key)
     return NULL;
 }
 
-void gm_room_observe(struct gm_user_room *user_room, struct gm_observable row, struct gm_room_subject subject)
-{
-    const struct gm_system_measure *measure =
-        gm_system_add_observable(&user_room->of_file, row, GM_ROOM_OBSERVED);
-    user_room->subjects[measure - user_room->of_file.measures] = subject;
-}
-
 /* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names become _. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
                     struct gm_room_subject subject)

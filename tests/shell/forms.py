@@ -108,6 +108,16 @@ for name, numbers in expected.items():
               f"{name}: {key} is {found.get(key)}, not {value}")
 check(cases["sand"]["f_residual"] < 1e-14 and cases["membrane"]["u_residual"] < 1e-14, "residuals of equations")
 
+# a group that is a number, and is not there
+with open(os.path.join(CASES, "sand.system"), encoding="utf-8") as stream:
+    numbered = stream.read().replace("boundary: left f", "boundary: 77 f").replace("plate.msh", os.path.join(CASES, "plate.msh"))
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "numbered.system")
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(numbered)
+    status, out, err = run([path])
+    check(status == 1 and "77 is not a part of the boundary" in err, f"group 77 exits {status}: {err}")
+
 # what flows out and what the cells at the left take is all that ages
 found = observed("form-age", "interior=upwind")
 check(abs(found["outflow"] + found["taken"] - 3) < 1e-12 and found["outflow"] > 2.9, f"form-age: {found}")
@@ -198,7 +208,7 @@ REFUSED = [
     (WAVE, "sphere 1 2", "torus 2 1 20 7", "not an even number"),
     (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
     (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
-    (WAVE, "sphere 1 2", "sphere; width 2", "2:15: a mesh has at most five numbers; those of a rectangle may be named"),
+    (WAVE, "sphere 1 2", "sphere; width 2", "2:21: a mesh has at most five numbers, and a rectangle alone names them"),
     (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
     (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "and its least star entry is -"),
     (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),

@@ -15,7 +15,7 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 double gm_system_half_length(const struct gm_system_lane *lane);
 
 /* Returns the path of the mesh that a file names, in the arena of its scene: beside the file or, without such a file, in
-   the folder where the program runs. Sets *inside to a built-in mesh if there is none there; else to NULL. */
+   the folder where the program runs. Sets *inside to the built-in mesh of that name if the first is missing, or to NULL. */
 const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char *name,
                                 const struct gm_built_in **inside);
 
