@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "core/files/files.h"
+#include "core/flow/room.h"
 #include "core/model/equations.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/field/user_field.h"
-#include "scenes/flow/user_room.h"
 
 #define GM_SYSTEM_SCENE(name)
 #define GM_ROOM_SCENE(name)
@@ -41,18 +41,12 @@ static const struct gm_scene unavailable = {.name = "",
                                             .schemes = no_schemes,
                                             .setup = refuse};
 
-static const struct gm_scene *open_room(const struct gm_built_in *file, struct gm_fault *fault)
-{
-    const struct gm_room_file room = {file->text, file->length, file->name, NULL, file->path, true};
-    char sentence[GM_MESSAGE];
-    return gm_user_room_open(&room, fault, sentence);
-}
-
 const struct gm_scene *gm_system_scene_open(struct gm_user_system *system,
                                             const struct gm_system_origin *origin,
                                             struct gm_system_opening *opening)
 {
-    const struct gm_system_maker *maker = gm_system_is_form(system)    ? &gm_system_forms
+    const struct gm_system_maker *maker = gm_system_is_room(system)    ? &gm_system_rooms
+                                          : gm_system_is_form(system)  ? &gm_system_forms
                                           : gm_system_is_field(system) ? &gm_system_fields
                                                                        : &gm_system_motions;
     return gm_system_scene_make(maker, system, origin, opening);
@@ -60,14 +54,16 @@ const struct gm_scene *gm_system_scene_open(struct gm_user_system *system,
 
 static const struct gm_scene *open_system(const struct gm_built_in *file, struct gm_fault *fault)
 {
-    struct gm_user_system system;
+    const bool room = file->kind == GM_FILE_ROOM;
+    struct gm_user_system system = gm_room_unread(file->text, file->length);
     char sentence[GM_MESSAGE];
-    if (!gm_equations_open(&system, file->text, file->length, NULL, 0, fault)) {
+    if (!room && !gm_equations_open(&system, file->text, file->length, NULL, 0, fault)) {
         gm_system_close(&system);
         return NULL;
     }
     size_t others;
-    const bool elsewhere = gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
+    const bool elsewhere =
+        !room && gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
     return gm_system_scene_open(&system,
                                 &(struct gm_system_origin){.name = file->name, .elsewhere = elsewhere},
                                 &(struct gm_system_opening){.fault = fault, .sentence = sentence});
@@ -78,8 +74,7 @@ static const struct gm_scene *open_file(const struct gm_built_in *file)
 {
     struct gm_fault fault = {0};
     size_t line, column;
-    const struct gm_scene *scene =
-        file->kind == GM_FILE_ROOM ? open_room(file, &fault) : open_system(file, &fault);
+    const struct gm_scene *scene = open_system(file, &fault);
     if (!scene && fault.sentence[0]) {
         gm_text_place(file->text, fault.offset, &line, &column);
         gm_refuse(reason, "%s:%zu:%zu: %s", file->path, line, column, fault.sentence);

@@ -14,12 +14,12 @@
 #include "app/base/interrupt.h"
 #include "app/words/words.h"
 #include "core/expression/lines.h"
+#include "core/flow/room.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
 #include "render/message.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/field/user_field.h"
-#include "scenes/flow/user_room.h"
 
 const char gm_system_typed[] = "system";
 
@@ -250,8 +250,10 @@ static bool open_system(struct making *making)
     struct gm_typed_file *written = &making->written;
     struct gm_made_system *made = making->trial->made;
     struct gm_fault fault;
-    bool derived;
-    if (making->value_count > 0) {
+    bool derived = making->room;
+    if (making->room) {
+        making->system = gm_room_unread(written->text, written->length);
+    } else if (making->value_count > 0) {
         gm_formula_close(&making->first.graph); /* the names of the values stay */
         derived = gm_equations_open(&making->system, written->text, written->length, making->values,
                                     making->value_count, &fault);
@@ -265,12 +267,13 @@ static bool open_system(struct making *making)
         return refuse_text(making, &fault);
     }
     const char *const *words = (const char *const *)made->words.words;
+    const bool inside = making->room && making->file.built_in;
     made->close = gm_system_scene_close;
     struct gm_system_opening opening = {.fault = &fault, .sentence = making->message};
     made->scene = gm_system_scene_open(&making->system,
                                        &(struct gm_system_origin){.name = made->name,
                                                                   .words = words,
-                                                                  .path = written->path,
+                                                                  .path = inside ? NULL : written->path,
                                                                   .typed = !written->path,
                                                                   .elsewhere = making->elsewhere},
                                        &opening);
@@ -284,22 +287,6 @@ static bool open_system(struct making *making)
         refuse_text(making, &fault);
     }
     making->trial->status = opening.unread ? GM_EXIT_FILE : making->trial->status;
-    return made->scene != NULL;
-}
-
-static bool open_room(struct making *making)
-{
-    struct gm_made_system *made = making->trial->made;
-    const struct gm_room_file file = {making->written.text, making->written.length,
-                                      made->name,           making->written.words[0],
-                                      making->file.path,    making->file.built_in};
-    struct gm_fault fault;
-    made->close = gm_user_room_close;
-    made->scene = gm_user_room_open(&file, &fault, making->message);
-    if (fault.sentence[0]) {
-        return refuse_text(making, &fault);
-    }
-    making->trial->status = made->scene ? GM_EXIT_USAGE : GM_EXIT_FILE;
     return made->scene != NULL;
 }
 
@@ -364,7 +351,7 @@ static void make(struct making *making)
                          gm_file_endings[making->room ? GM_FILE_ROOM : GM_FILE_SYSTEM]);
     if (known) {
         making->trial->scene = known->scene;
-    } else if (made->key && made->name && (making->room ? open_room(making) : open_system(making))) {
+    } else if (made->key && made->name && open_system(making)) {
         making->trial->scene = made->scene;
     }
 }

@@ -304,14 +304,14 @@ static void read_kept(struct gm_reading *reading, struct gm_room *room, struct g
     gm_system_refuse_if(reading->system, value.begin < value.end, value.begin, "keep: has two numbers, x, y");
 }
 
-/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ...,
-   or flat-torus; ...; or a file */
+/* rectangle; width F; height F; edges KEY; strips KEY; along y; irregular F; multiple F; keep x, y; ..., or
+   rectangle F F KEY KEY; ..., or flat-torus; ...; or a file */
 static void read_mesh(struct room_reading *here, const struct gm_read_line *line)
 {
     struct gm_reading *reading = &here->reading;
     struct gm_room *room = here->room;
     struct gm_rectangle *rectangle = &room->rectangle;
-    struct gm_span rest = line->value, value;
+    struct gm_mesh_line mesh;
     double edges = 0, strips = 0, multiple = 0;
     const struct {
         const char *word;
@@ -319,26 +319,25 @@ static void read_mesh(struct room_reading *here, const struct gm_read_line *line
         char **key; /* key of a whole number; NULL: any number */
     } options[] = {{"width", &rectangle->width, 1e-9, 1e9, NULL},
                    {"height", &rectangle->height, 1e-9, 1e9, NULL},
-                   {"irregular", &rectangle->irregular, 0, 0.45, NULL},
                    {"edges", &edges, 1, 100000, &room->edges},
                    {"strips", &strips, 0, 100000, &room->strips},
+                   {"irregular", &rectangle->irregular, 0, 0.45, NULL},
                    {"multiple", &multiple, 1, 100000, &(char *){NULL}}};
-    gm_span_take(reading->text, &rest, ";", &value);
-    rectangle->torus = gm_span_is(reading->text, value, "flat-torus");
-    room->rectangular = rectangle->torus || gm_span_is(reading->text, value, "rectangle");
+    const struct gm_span kind = gm_mesh_begin(reading, line, &mesh);
+    rectangle->torus = gm_span_is(reading->text, kind, "flat-torus");
+    room->rectangular = rectangle->torus || gm_span_is(reading->text, kind, "rectangle");
     rectangle->fixed = room->fixed;
     room->edges = room->strips = gm_reading_text(reading, (struct gm_span){0, 0});
     if (!room->rectangular) {
         room->system.texts[GM_WORD_MESH] = gm_reading_text(reading, line->value);
         return;
     }
-    while (gm_span_take(reading->text, &rest, ";", &value)) {
-        const struct gm_span word = gm_reading_word(reading, &value);
-        size_t i = 0;
-        while (i < GM_COUNT(options) && !gm_span_is(reading->text, word, options[i].word)) {
-            i++;
-        }
-        if (i < GM_COUNT(options)) {
+    while (gm_mesh_next(reading, &mesh)) {
+        const size_t i = mesh.number;
+        struct gm_span value = mesh.value,
+                       word = i < GM_MESH_NUMBERS ? value : gm_reading_word(reading, &value);
+        if (i < GM_MESH_NUMBERS ||
+            (i == GM_MESH_NUMBERS && gm_span_is(reading->text, word, options[i].word))) {
             const double number = *options[i].number = gm_reading_finite(reading, value);
             gm_system_refuse_if(&room->system,
                                 number < options[i].least || number > options[i].most ||

@@ -97,6 +97,11 @@ struct gm_room_input {
     size_t count;
 };
 
+/* A system of this text, which gm_room_read reads. */
+static inline struct gm_user_system gm_room_unread(const char *text, size_t length)
+{
+    return (struct gm_user_system){.kind = GM_ROOM, .source = (char *)(uintptr_t)text, .length = length};
+}
 /* Reads a room in a body of the arena that holds it. A fault leaves the body; its sentence is empty when out
    of memory. */
 void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_room_input *input,

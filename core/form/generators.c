@@ -14,10 +14,12 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/basics.h"
 #include "core/expression/residue.h"
 #include "core/functions/functions.h"
 #include "core/linear/vectors.h"
@@ -441,7 +443,7 @@ static enum which which_of(const char *word)
 static long rows_of(enum which which, const double *number, size_t count)
 {
     const double n = count > 2 ? number[2] : 0;
-    if (count > generators[which].rows) {
+    if (count > generators[which].rows && number[generators[which].rows] > 0) { /* 0: the best number */
         return (long)number[generators[which].rows];
     }
     return which == RECTANGLE ? gm_rectangle_strips(number[0], number[1], (long)n, false)
@@ -479,7 +481,8 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
             return gm_fail(fault, place, "mesh: %s: %g is not a length: it has to be above 0", word,
                            number[i]);
         }
-        if (whole &&
+        const bool best = i == generators[which].rows && number[i] == 0 && generators[which].even;
+        if (whole && !best &&
             !(number[i] == floor(number[i]) && number[i] >= (double)lowest && number[i] <= (double)highest)) {
             return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
                            number[i], lowest, highest);
@@ -561,40 +564,75 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
                         .fault = fault});
 }
 
-struct gm_complex *gm_generator_open(const char *word, const double *number, size_t count, enum gm_star star,
-                                     struct gm_triangulation_fault *fault)
+/* The parts of the boundary of a mesh that is made, as groups. */
+struct naming {
+    struct gm_triangulation *mesh;
+    enum which which;
+    const double *number;
+};
+
+/* The part, from 1, of an edge of the boundary with this middle. */
+static int part_of(const struct naming *naming, const double middle[3])
 {
-    const enum which which = which_of(word);
-    if (which <= FLAT_TORUS) {
-        struct gm_rectangle rectangle = rectangle_of(which, number, count);
-        rectangle.star = star;
-        return gm_rectangle_open(&rectangle, fault);
+    const double *number = naming->number;
+    const bool sides[] = {middle[0] == 0, middle[0] == number[0], middle[1] == 0, true};
+    int part = 0;
+    while (naming->which == RECTANGLE && !sides[part]) {
+        part++;
     }
-    return open_complex((struct making){
-        .laying = {.number = number, .rows = rows_of(which, number, count), .torus = which == TORUS},
-        .lay = generators[which].lay,
-        .from = {.in_space = true, .star = star},
-        .fault = fault});
+    return 1 + part + (naming->which == ANNULUS && gm_hypot(middle[0], middle[1]) > number[0] * 1.001);
 }
 
-const char *const *gm_generator_parts(const char *word)
+static void name_parts(struct gm_arena *arena, void *data)
 {
     static const char *const parts[GENERATORS][5] = {
         [RECTANGLE] = {"left", "right", "bottom", "top"}, [DISC] = {"rim"}, [ANNULUS] = {"inner", "outer"}};
-    return parts[which_of(word)];
+    const struct naming *naming = data;
+    struct gm_triangulation *mesh = naming->mesh;
+    const struct gm_complex *complex = mesh->complex;
+    const char *const *names = parts[naming->which];
+    struct gm_triangulation_member *members = gm_arena_take(arena, complex->boundary + 1, sizeof *members);
+    mesh->group = gm_arena_take(arena, GM_COUNT(parts[0]), sizeof *mesh->group);
+    for (; names[mesh->groups]; mesh->groups++) {
+        struct gm_triangulation_group *group = &mesh->group[mesh->groups];
+        group->tag = (long)mesh->groups + 1;
+        snprintf(group->name, sizeof group->name, "%s", names[mesh->groups]);
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        double middle[3], end[3];
+        members[b].edge = complex->boundary_edge[b];
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * members[b].edge], middle);
+        gm_complex_vertex(complex, (size_t)complex->edge[2 * members[b].edge + 1], end);
+        for (int c = 0; c < 3; c++) {
+            middle[c] = (middle[c] + end[c]) / 2;
+        }
+        members[b].tag = names[0] ? part_of(naming, middle) : 0;
+    }
+    gm_triangulation_join(mesh, members, complex->boundary);
 }
 
-bool gm_generator_on(const char *word, const double *number, const char *part, const double middle[3])
+bool gm_generator_open(const char *word, const double *number, size_t count, enum gm_star star,
+                       struct gm_triangulation *mesh, struct gm_triangulation_fault *fault)
 {
     const enum which which = which_of(word);
-    const double radius = gm_hypot(middle[0], middle[1]);
-    const bool sides[] = {middle[0] == 0, middle[0] == number[0], middle[1] == 0, middle[1] == number[1]},
-               circles[] = {radius<number[0] * 1.001, radius> number[0] * 1.001};
-    const char *const *parts = gm_generator_parts(word);
-    for (size_t i = 0; parts[i]; i++) {
-        if (strcmp(parts[i], part) == 0) {
-            return which == DISC || (which == RECTANGLE ? sides : circles)[i];
-        }
+    struct gm_rectangle rectangle;
+    if (which <= FLAT_TORUS) {
+        rectangle = rectangle_of(which, number, count);
+        rectangle.star = star;
     }
-    return strcmp(part, "all") == 0;
+    *mesh = (struct gm_triangulation){
+        .complex = which <= FLAT_TORUS
+                       ? gm_rectangle_open(&rectangle, fault)
+                       : open_complex((struct making){.laying = {.number = number,
+                                                                 .rows = rows_of(which, number, count),
+                                                                 .torus = which == TORUS},
+                                                      .lay = generators[which].lay,
+                                                      .from = {.in_space = true, .star = star},
+                                                      .fault = fault})};
+    mesh->arena = mesh->complex ? gm_arena_open() : NULL;
+    if (mesh->complex && !gm_arena_run(mesh->arena, name_parts, &(struct naming){mesh, which, number})) {
+        fault->kind = GM_TRIANGULATION_MEMORY;
+        gm_triangulation_close(mesh);
+    }
+    return mesh->complex;
 }

@@ -4,7 +4,7 @@
 #define GM_CORE_FORM_GENERATORS_H
 
 #include "core/expression/reader.h"
-#include "core/form/complex.h"
+#include "core/form/gmsh.h"
 
 /* An acute triangulation of a rectangle, or of a torus. The vertices on the walls have exactly the
    coordinates 0, width and height, whatever the numbers of edges and strips. */
@@ -41,13 +41,9 @@ enum { GM_GENERATOR_NUMBERS = 5 }; /* the most */
 bool gm_generator_check(const char *word, const double *numbers, size_t count, size_t place,
                         struct gm_fault *fault);
 
-/* The mesh of a word and numbers that were checked. NULL with a fault of the star, or when out of memory. */
-struct gm_complex *gm_generator_open(const char *word, const double *numbers, size_t count, enum gm_star star,
-                                     struct gm_triangulation_fault *fault);
-
-/* The names of the parts of a mesh's boundary; a NULL ends them. */
-const char *const *gm_generator_parts(const char *word);
-/* True if an edge of the boundary with this middle is on a part, or on any part if that is "all". */
-bool gm_generator_on(const char *word, const double *numbers, const char *part, const double middle[3]);
+/* The mesh of a word and numbers that were checked; the parts of its boundary are groups: left right bottom top, rim,
+   inner outer. False with a fault of the star, or when out of memory. */
+bool gm_generator_open(const char *word, const double *numbers, size_t count, enum gm_star star,
+                       struct gm_triangulation *mesh, struct gm_triangulation_fault *fault);
 
 #endif

@@ -907,6 +907,7 @@ void gm_triangulation_join(struct gm_triangulation *mesh, const struct gm_triang
     }
     memmove(start + 1, start, edges * sizeof *start);
     start[0] = 0;
+    mesh->members = (size_t)start[edges];
 }
 
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name)
@@ -918,8 +919,8 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
     }
     char *rest = NULL;
     const long tag = strtol(name, &rest, 10);
-    for (size_t e = 0; rest != name && *rest == '\0' && mesh->member_start && e < mesh->complex->edges; e++) {
-        if (tag != 0 && gm_triangulation_has(mesh, e, tag)) {
+    for (size_t k = 0; rest != name && *rest == '\0' && k < mesh->members; k++) {
+        if (mesh->member[k] == tag) {
             return tag;
         }
     }

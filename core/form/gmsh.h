@@ -11,6 +11,7 @@ struct gm_triangulation {
     struct gm_complex *complex;
     long *tags;                 /* tags of the vertices, increasing */
     int *member_start, *member; /* the groups of an edge e: member_start[e] .. member_start[e + 1] - 1 */
+    size_t members;             /* of all edges */
     size_t groups;              /* physical groups of curves */
     struct gm_triangulation_group {
         long tag;

@@ -14,6 +14,15 @@ static struct gm_matrix empty(struct gm_arena *arena, size_t rows, size_t column
                               .value = gm_arena_take(arena, count + 1, sizeof(double))};
 }
 
+static struct gm_matrix ended(struct gm_matrix matrix)
+{
+    matrix.width = matrix.rows > 0 ? matrix.start[1] : 0;
+    for (size_t i = 0; i < matrix.rows; i++) {
+        matrix.width = matrix.start[i + 1] - matrix.start[i] == matrix.width ? matrix.width : 0;
+    }
+    return matrix;
+}
+
 struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_matrix *a, double factor)
 {
     struct gm_matrix to = empty(arena, a->columns, a->rows, gm_matrix_count(a));
@@ -33,7 +42,7 @@ struct gm_matrix gm_matrix_transposed(struct gm_arena *arena, const struct gm_ma
     }
     memmove(next + 1, next, to.rows * sizeof *next);
     next[0] = 0;
-    return to;
+    return ended(to);
 }
 
 struct gm_matrix_rows gm_matrix_begin(struct gm_arena *arena, size_t rows, size_t columns, size_t most)
@@ -89,7 +98,7 @@ void gm_matrix_end_row(struct gm_matrix_rows *rows, bool sorted)
 struct gm_matrix gm_matrix_end(struct gm_matrix_rows *rows)
 {
     gm_arena_drop(rows->arena, rows->scratch);
-    return rows->matrix;
+    return ended(rows->matrix);
 }
 
 struct gm_matrix_entries gm_matrix_entries(struct gm_arena *arena, size_t most)
@@ -223,16 +232,39 @@ struct gm_matrix gm_matrix_diagonal(struct gm_arena *arena, const double *number
         matrix.column[i] = (int)i;
         matrix.value[i] = factor * (power > 0 ? numbers[i] : 1 / numbers[i]);
     }
-    return matrix;
+    return ended(matrix);
+}
+
+/* The same for rows of a width that is a constant of the call; 0: they differ. */
+static inline void apply(const struct gm_matrix *a, int width, const double *x, double *y)
+{
+    for (int i = 0; i < (int)a->rows; i++) {
+        const int begin = width > 0 ? i * width : a->start[i],
+                  end = width > 0 ? width : a->start[i + 1] - begin;
+        double sum = 0;
+        for (int k = 0; k < end; k++) {
+            sum += a->value[begin + k] * x[a->column[begin + k]];
+        }
+        y[i] = sum;
+    }
 }
 
 void gm_matrix_apply(const struct gm_matrix *a, const double *x, double *y)
 {
-    for (size_t i = 0; i < a->rows; i++) {
-        double sum = 0;
-        for (int k = a->start[i]; k < a->start[i + 1]; k++) {
-            sum += a->value[k] * x[a->column[k]];
-        }
-        y[i] = sum;
+    switch (a->width) {
+    case 1:
+        apply(a, 1, x, y);
+        break;
+    case 2:
+        apply(a, 2, x, y);
+        break;
+    case 3:
+        apply(a, 3, x, y);
+        break;
+    case 5:
+        apply(a, 5, x, y);
+        break;
+    default:
+        apply(a, 0, x, y);
     }
 }

@@ -10,6 +10,7 @@ struct gm_matrix {
     size_t rows, columns;
     int *start, *column;
     double *value;
+    int width; /* the entries of every row; 0: rows differ */
 };
 
 /* The number of entries; 0 of no matrix. */

@@ -19,8 +19,7 @@ static void halve(struct gm_arena *arena, void *data)
     const struct gm_triangulation *mesh = halving->mesh;
     const struct gm_complex *coarse = mesh->complex;
     struct gm_triangulation *halved = &halving->halved;
-    const size_t n = coarse->vertices, finer = n + coarse->edges,
-                 members = (size_t)mesh->member_start[coarse->edges];
+    const size_t n = coarse->vertices, finer = n + coarse->edges, members = mesh->members;
     double *points = gm_arena_take(arena, 2 * finer, sizeof *points);
     int *corners = gm_arena_take(arena, 12 * coarse->triangles, sizeof *corners);
     struct gm_triangulation_member *halves = gm_arena_take(arena, 2 * members + 1, sizeof *halves);

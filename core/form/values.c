@@ -26,6 +26,8 @@ void gm_form_values_open(struct gm_form_values *values, struct gm_arena *arena,
     values->slot = gm_arena_take(arena, program->count + 1, sizeof *values->slot);
     values->tapes = gm_arena_take(arena, program->count + 1, sizeof *values->tapes);
     values->sampled = gm_arena_take(arena, program->count + 1, sizeof *values->sampled);
+    values->zero = gm_arena_take(arena, 2 * program->count + 1, sizeof *values->zero);
+    values->idle = values->zero + program->count;
     for (size_t i = 0; i < program->count; i++) {
         const struct gm_form_step *step = &program->steps[i];
         if (step->kind != GM_STEP_FORM) {
@@ -217,12 +219,68 @@ static double value_at(const struct gm_form_values *values, size_t i)
     return value;
 }
 
+static bool is_inverse(const struct gm_form_values *values, const struct gm_form_step *step)
+{
+    return step->kind == GM_STEP_MATRIX && step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass;
+}
+
+/* True if a step is 0 whatever the forms are, as its parts are: a constant 0, what an empty matrix makes, products with
+   either. */
+static bool vanishes(const struct gm_form_values *values, size_t i)
+{
+    const struct gm_form_step *step = &values->program->steps[i];
+    const bool a = values->zero[step->a], b = values->zero[step->b];
+    if (step->kind == GM_STEP_MATRIX) {
+        return a || (gm_matrix_count(&values->space->matrix[step->number]) == 0 && !is_inverse(values, step));
+    }
+    if (step->kind == GM_STEP_OPERATE) {
+        const bool product = step->number == GM_OPERATION_MULTIPLY,
+                   sum = step->number == GM_OPERATION_ADD || step->number == GM_OPERATION_SUBTRACT ||
+                         step->number == GM_OPERATION_NEGATE || step->number == GM_OPERATION_ABS;
+        return (product && (a || b)) || (sum && a && b);
+    }
+    bool zero = !(step->needs & ~values->fixed) && step->kind != GM_STEP_FORM;
+    for (size_t k = 0; zero && k < size_of(values, i); k++) {
+        zero = values->slot[i][k] == 0;
+    }
+    return zero;
+}
+
+/* After the first run: finds the steps that later ones leave out. */
+static void find_idle(struct gm_form_values *values)
+{
+    const struct gm_form_program *program = values->program;
+    bool *idle = values->idle;
+    for (size_t i = 0; i < program->count; i++) {
+        values->zero[i] = vanishes(values, i);
+        idle[i] = true; /* unless a root or a step needs it */
+    }
+    for (size_t k = 0; k < program->root_count; k++) {
+        idle[program->roots[k]] = false;
+    }
+    for (size_t i = program->count; i-- > 0;) {
+        const struct gm_form_step *step = &program->steps[i];
+        const bool leaf = step->kind == GM_STEP_FORM || step->kind == GM_STEP_SAMPLE;
+        idle[i] |= values->zero[i] || (step->kind != GM_STEP_FORM && !(step->needs & ~values->fixed));
+        if (idle[i] || leaf) {
+            continue;
+        }
+        idle[step->a] = false;
+        if (step->kind == GM_STEP_OPERATE || step->kind == GM_STEP_WEDGE) {
+            idle[step->b] = false;
+        }
+        for (size_t c = 0; step->kind == GM_STEP_AT && c < step->components; c++) {
+            idle[step->nodes[c]] = false;
+        }
+    }
+}
+
 void gm_form_values_run(struct gm_form_values *values, double t, double *const *forms)
 {
     const bool first = isnan(values->time), later = values->time != t;
     for (size_t i = 0; i < values->program->count; i++) {
         const struct gm_form_step *step = &values->program->steps[i];
-        if (!first && (step->needs == 0 || (step->needs == GM_NEEDS_TIME && !later))) {
+        if (!first && (values->idle[i] || ((step->needs & ~values->fixed) == GM_NEEDS_TIME && !later))) {
             continue;
         }
         switch (step->kind) {
@@ -260,6 +318,9 @@ void gm_form_values_run(struct gm_form_values *values, double t, double *const *
         default:
             reduce(values, i);
         }
+    }
+    if (first) {
+        find_idle(values);
     }
     values->time = t;
 }
@@ -317,11 +378,6 @@ static struct gm_matrix derivative(const struct gm_form_values *values, struct g
         sum = sum.start ? gm_matrix_sum(arena, 1, &sum, 1, &part) : part;
     }
     return sum;
-}
-
-static bool is_inverse(const struct gm_form_values *values, const struct gm_form_step *step)
-{
-    return step->kind == GM_STEP_MATRIX && step->number == GM_MATRIX_DUAL_STAR1 && values->space->mass;
 }
 
 static struct gm_matrix unit(struct gm_arena *arena, size_t n, size_t columns, size_t first)

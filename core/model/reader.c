@@ -592,13 +592,57 @@ static void read_ring(struct gm_reading *reading, const struct gm_read_line *lin
     read_weight(reading, line);
 }
 
-/* mesh: sphere 1 level: a word, and numbers separated by blanks, which may be formulas without blanks */
+struct gm_span gm_mesh_begin(struct gm_reading *reading, const struct gm_read_line *line,
+                             struct gm_mesh_line *mesh)
+{
+    *mesh = (struct gm_mesh_line){.options = line->value};
+    gm_span_take(reading->text, &mesh->options, ";", &mesh->numbers);
+    return gm_reading_word(reading, &mesh->numbers);
+}
+
+bool gm_mesh_next(struct gm_reading *reading, struct gm_mesh_line *mesh)
+{
+    static const char *const names[GM_MESH_NUMBERS + 1] = {"width", "height", "edges", "strips", "irregular"};
+    if (mesh->numbers.begin < mesh->numbers.end) {
+        mesh->value = gm_reading_word(reading, &mesh->numbers);
+        mesh->number = mesh->count++;
+        return true;
+    }
+    if (!gm_span_take(reading->text, &mesh->options, ";", &mesh->value)) {
+        return false;
+    }
+    struct gm_span value = mesh->value;
+    mesh->number = gm_span_among(reading->text, gm_reading_word(reading, &value), names);
+    mesh->value = mesh->number < GM_MESH_NUMBERS ? value : mesh->value;
+    return true;
+}
+
+/* mesh: sphere 1 level: a word, and numbers separated by blanks, which may be formulas without blanks; a rectangle's
+   may have their names */
 static void read_generator(struct gm_reading *reading, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value;
-    struct gm_system_item *item = gm_reading_item(reading, line, gm_reading_word(reading, &rest));
-    while (rest.begin < rest.end) {
-        add_formula(reading, item, gm_reading_word(reading, &rest));
+    struct gm_mesh_line mesh;
+    struct gm_system_item *item = gm_reading_item(reading, line, gm_mesh_begin(reading, line, &mesh));
+    struct gm_span numbers[GM_MESH_NUMBERS] = {{0, 0}};
+    const bool named = mesh.options.begin < mesh.options.end;
+    size_t count = 0;
+    while (gm_mesh_next(reading, &mesh)) {
+        gm_system_refuse_if(
+            reading->system,
+            mesh.number >= GM_MESH_NUMBERS ||
+                (named && strcmp(item->name, "rectangle") != 0 && strcmp(item->name, "flat-torus") != 0),
+            mesh.value.begin,
+            "a mesh has at most five numbers, and a rectangle alone names them: width, "
+            "height, edges, strips, irregular");
+        numbers[mesh.number] = mesh.value;
+        count = mesh.number >= count ? mesh.number + 1 : count;
+    }
+    for (size_t i = 0; i < count; i++) { /* what lies between is 0 */
+        if (numbers[i].begin < numbers[i].end) {
+            add_formula(reading, item, numbers[i]);
+        } else {
+            gm_item_add(reading, item, gm_formula_constant(&reading->system->graph, 0));
+        }
     }
 }
 

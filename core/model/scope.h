@@ -70,6 +70,19 @@ struct gm_reading {
 
 /* Reads the whole text, of a system whose kind is found first, or of a room. In a body of the system's arena. */
 void gm_reading_read(struct gm_reading *reading);
+/* A line mesh: of a generator while it is read: its numbers in their order, "rectangle 2 1 16", then options after
+   semicolons, which may be numbers by their names, "width 2; height 1; edges 16". */
+enum { GM_MESH_NUMBERS = 5 }; /* width, height, edges, strips, irregular */
+struct gm_mesh_line {
+    struct gm_span numbers, options; /* what is not read yet */
+    size_t count, number; /* of numbers in their order; of the last one, GM_MESH_NUMBERS for an option */
+    struct gm_span value; /* of the last number, or the whole option */
+};
+/* Begins it. Returns the span of the generator's word. */
+struct gm_span gm_mesh_begin(struct gm_reading *reading, const struct gm_read_line *line,
+                             struct gm_mesh_line *mesh);
+/* Reads the next number or option; false after the last. */
+bool gm_mesh_next(struct gm_reading *reading, struct gm_mesh_line *mesh);
 /* Adds an item of a line. */
 struct gm_system_item *gm_reading_item(struct gm_reading *reading, const struct gm_read_line *line,
                                        struct gm_span name);

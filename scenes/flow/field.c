@@ -3,7 +3,7 @@
    of the discrete velocity), walls, the mesh, tracers with short tails, arrows, names. */
 #include "core/functions/functions.h"
 #include "scenes/common/graph.h"
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 #include "scenes/form/form.h"
 
 #include <math.h>

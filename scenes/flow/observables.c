@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/common/system/pieces.h"
+
 const char *gm_room_unit(const struct gm_user_room *user_room, struct gm_powers powers, char *name)
 {
     static const char *const raised[] = {"", "", "²", "³", "⁴"};
@@ -44,6 +46,13 @@ const char *gm_room_beside_unit(const struct gm_user_room *user_room, struct gm_
     snprintf(text, GM_ROOM_UNIT + 8, "%s%s%s%s", unit[0] ? " / " : "", alone ? "" : "(", unit,
              alone ? "" : ")");
     return text;
+}
+
+void gm_room_observe(struct gm_user_room *user_room, struct gm_observable row, struct gm_room_subject subject)
+{
+    const struct gm_system_measure *measure =
+        gm_system_add_observable(&user_room->of_file, row, GM_ROOM_OBSERVED);
+    user_room->subjects[measure - user_room->of_file.measures] = subject;
 }
 
 static const struct gm_flow *flow_of(const struct gm_view *view)

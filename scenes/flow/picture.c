@@ -6,7 +6,7 @@
 
 #include "core/functions/functions.h"
 #include "scenes/common/graph.h"
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 enum { MOST_BESIDE_GRAPHS = 4 };
 
@@ -104,7 +104,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
     const struct gm_read_line *line = gm_room_said(room, GM_WORD_SUBTITLE);
     const char *told = "", *remark = "", *source = room->system.source;
     char unit[GM_ROOM_UNIT];
-    if (!line && gm_scene_parameter(&user_room->scene, "viscosity")) {
+    if (!line && gm_scene_parameter(&user_room->of_file.scene, "viscosity")) {
         gm_room_unit(user_room, (struct gm_powers){{2, -1, 0}}, unit);
         told = tell(picture, lanes, count,
                     (struct told){"viscosity", unit, offsetof(struct gm_flows, viscosity), false});
@@ -117,7 +117,8 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
     for (size_t i = 0; rest.begin < rest.end; i++) {
         bool nonzero;
         const bool filled = take_brace(source, &rest, &before, &key, &nonzero);
-        const struct gm_parameter *row = gm_scene_parameter(&user_room->scene, text_of(picture, room, key));
+        const struct gm_parameter *row =
+            gm_scene_parameter(&user_room->of_file.scene, text_of(picture, room, key));
         if (i < MOST_TOLD && row && row->type == GM_REAL && !remark[0]) {
             before.begin += strspn(source + before.begin, ", ");
             const char *name = text_of(picture, room, gm_span_trimmed(source, before));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts through a room: drawn with exact and published values, and written as rows of numbers. */
-#include "scenes/flow/look.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 /* Returns true if published points hold for a lane's parameters. */
 static bool holds(const struct gm_system_item *table, const struct gm_flows *flows)
 {
-    const struct gm_parameter *row = gm_scene_parameter(&flows->room->scene, table->text);
+    const struct gm_parameter *row = gm_scene_parameter(&flows->room->of_file.scene, table->text);
     return strcmp(flows->mesh, "none") == 0 && gm_parameter_get(row, flows) == table->value;
 }
 

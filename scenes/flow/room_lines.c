@@ -10,44 +10,22 @@
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
-#include "core/schemes.h"
 #include "scenes/common/written.h"
 
 const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
 const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", "galerkin", NULL};
 
-/* Returns the schemes of a list, NULL-terminated, which must be schemes for flows; NULL: none. */
-static const char *const *list_schemes(const struct gm_user_room *user_room, const char *text, size_t place)
-{
-    char name[64];
-    size_t count = 0;
-    const char **names = text ? gm_arena_take(user_room->arena, strlen(text) + 1, sizeof *names) : NULL;
-    while (gm_listed_word(&text, name, sizeof name)) {
-        const struct gm_scheme *scheme = gm_scheme_find(name);
-        gm_system_refuse_if(&user_room->room.system, !scheme || scheme->family->kind != &gm_kind_flow, place,
-                            "%s is not a scheme of rooms", name);
-        names[count++] = scheme->name;
-    }
-    return count > 0 ? names : NULL;
-}
-
-/* Returns words key=value, each with one of the scene's keys, or a word that all scenes have. */
-static const char *check_words(const struct gm_user_room *user_room, const char *words, size_t place)
+/* Checks words key=value: each has one of the scene's keys, or a word that all scenes have. */
+static void check_words(const struct gm_user_room *user_room, const char *words, size_t place)
 {
     for (const char *word = words; *word; word += strcspn(word, " "), word += *word == ' ') {
-        const char *key = gm_arena_print(user_room->arena, "%.*s", (int)strcspn(word, "= "), word);
+        const char *key = gm_arena_print(user_room->of_file.arena, "%.*s", (int)strcspn(word, "= "), word);
         gm_system_refuse_if(&user_room->room.system,
-                            word[strlen(key)] != '=' || !(gm_scene_parameter(&user_room->scene, key) ||
-                                                          gm_reading_reserves(key, strlen(key))),
+                            word[strlen(key)] != '=' ||
+                                !(gm_scene_parameter(&user_room->of_file.scene, key) ||
+                                  gm_reading_reserves(key, strlen(key))),
                             place, "words key=value were expected, with keys of the room: until=5");
     }
-    return words;
-}
-
-static void check_observable(const struct gm_user_room *user_room, const char *key, size_t place)
-{
-    gm_system_refuse_if(&user_room->room.system, key && gm_scene_observable(&user_room->scene, key) < 0,
-                        place, "this is not an observable of the room");
 }
 
 #define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
@@ -99,9 +77,9 @@ static const struct gm_parameter *find_row(const char *key)
 
 static struct gm_parameter *add_row(struct gm_user_room *user_room, const struct gm_parameter *row)
 {
-    struct gm_scene *scene = &user_room->scene;
-    user_room->rows[scene->parameter_count] = *row;
-    return &user_room->rows[scene->parameter_count++];
+    struct gm_scene *scene = &user_room->of_file.scene;
+    user_room->of_file.rows[scene->parameter_count] = *row;
+    return &user_room->of_file.rows[scene->parameter_count++];
 }
 
 /* Checks that the usual value of a row is one of its values. */
@@ -110,7 +88,7 @@ static void check_row(struct gm_user_room *user_room, const struct gm_parameter 
     struct gm_flows scratch;
     const unsigned long refusals = gm_memory_refusals();
     const bool taken = gm_parameter_set(row, &scratch, row->standard) == GM_PARSED;
-    gm_arena_need(user_room->arena, gm_memory_refusals() == refusals);
+    gm_arena_need(user_room->of_file.arena, gm_memory_refusals() == refusals);
     gm_system_refuse_if(&user_room->room.system, !taken, place,
                         "the usual value lies outside of the range, or is none of the words");
 }
@@ -121,7 +99,7 @@ static void add_choices(struct gm_user_room *user_room, size_t place, size_t *co
     const struct gm_user_system *system = &user_room->room.system;
     for (; *count < system->choices.count && system->choices.list[*count].place < place; ++*count) {
         const struct gm_parameter row =
-            gm_written_choice(user_room->arena, system, *count, "a choice",
+            gm_written_choice(user_room->of_file.arena, system, *count, "a choice",
                               offsetof(struct gm_flows, choices) + sizeof(int) * *count);
         gm_system_refuse_if(system, find_row(row.key), system->choices.list[*count].place,
                             "this name is reserved");
@@ -135,16 +113,18 @@ static void make_rows(struct gm_user_room *user_room)
     const struct gm_user_system *system = &room->system;
     struct gm_parameter timing[] = {GM_DT("", gm_room_dt.least, gm_room_dt.most), GM_UNTIL("")};
     size_t own = 0, choices = 0;
-    gm_written_timing(user_room->arena, system, gm_room_timing(room, GM_WORD_DT, 0.01),
+    user_room->of_file.rows =
+        gm_arena_take(user_room->of_file.arena, GM_ROOM_ROWS, sizeof *user_room->of_file.rows);
+    gm_written_timing(user_room->of_file.arena, system, gm_room_timing(room, GM_WORD_DT, 0.01),
                       gm_room_timing(room, GM_WORD_UNTIL, 10), timing);
     add_row(user_room, &timing[0]);
     add_row(user_room, &timing[1]);
     if (!gm_room_parameter(room, "viscosity") && !gm_room_parameter(room, "reynolds")) {
         add_row(user_room, find_row("viscosity"))->standard =
-            gm_written_number(user_room->arena, room->viscosity, NULL);
+            gm_written_number(user_room->of_file.arena, room->viscosity, NULL);
         if (!gm_room_parameter(room, "schmidt")) {
             add_row(user_room, find_row("schmidt"))->standard =
-                gm_written_number(user_room->arena, room->viscosity / room->diffusivity, NULL);
+                gm_written_number(user_room->of_file.arena, room->viscosity / room->diffusivity, NULL);
         }
     }
     for (size_t i = system->parameters; i < system->velocities; i++) {
@@ -168,7 +148,7 @@ static void make_rows(struct gm_user_room *user_room)
         check_row(user_room, row, parameter->start_place);
     }
     add_choices(user_room, SIZE_MAX, &choices);
-    user_room->scene.parameters = user_room->rows;
+    user_room->of_file.scene.parameters = user_room->of_file.rows;
     for (size_t i = (size_t)(find_row("star") - known); i < GM_COUNT(known); i++) {
         const bool of_file = known[i].offset == offsetof(struct gm_flows, star) ||
                              known[i].offset == offsetof(struct gm_flows, refine) ||
@@ -190,7 +170,7 @@ static void check_tables(const struct gm_user_room *user_room)
     for (size_t i = 0; (table = gm_system_item_of(system, GM_WORD_TABLE, i)); i++) {
         gm_system_refuse_if(system,
                             !gm_system_item_named(system, GM_WORD_PROFILE, table->words) ||
-                                !gm_scene_parameter(&user_room->scene, table->text),
+                                !gm_scene_parameter(&user_room->of_file.scene, table->text),
                             table->place,
                             "a table has a name and a profile, the value of a parameter, and points");
     }
@@ -202,124 +182,49 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_system_item *profile =
         along ? gm_system_item_named(&user_room->room.system, GM_WORD_PROFILE, along) : NULL;
-    size_t i = 0, kind = 0;
+    struct gm_system_scene *of_file = &user_room->of_file;
+    size_t kind = 0;
     while (kind < GM_ROOM_KINDS && (strcmp(gm_room_rows[kind].observable.key, item->name) != 0 ||
                                     gm_room_rows[kind].along != (along != NULL))) {
         kind++;
     }
-    while (i < user_room->observable_count && strcmp(user_room->observables[i].key, item->name) != 0) {
-        i++;
+    int i = gm_scene_observable(&of_file->scene, item->name);
+    if (i < 0) {
+        gm_system_refuse_if(&user_room->room.system, kind == GM_ROOM_KINDS || (along && !profile),
+                            item->place,
+                            "this is nothing that is observed of a room, or of a profile that it has");
+        i = (int)of_file->observable_count;
+        gm_room_observe(user_room, gm_room_rows[kind].observable,
+                        (struct gm_room_subject){.row = &gm_room_rows[kind], .profile = profile});
     }
-    if (i == user_room->observable_count) {
-        gm_system_refuse_if(
-            &user_room->room.system, kind == GM_ROOM_KINDS || i == GM_ROOM_OBSERVED || (along && !profile),
-            item->place, "this is nothing that is observed of a room, or of a profile that it has");
-        user_room->observables[i] = gm_room_rows[kind].observable;
-        user_room->subjects[user_room->observable_count++] =
-            (struct gm_room_subject){.row = &gm_room_rows[kind], .profile = profile};
-    }
-    gm_written_options(&user_room->observables[i], item);
-}
-
-/* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
-   over it. NAN if setup refuses. */
-static double courant_time(const void *parameters)
-{
-    const struct gm_scene *scene = &gm_user_room_of(parameters)->scene;
-    struct gm_problem problem = {0};
-    char sentence[GM_MESSAGE];
-    if (!scene->setup(parameters, &problem, sentence)) {
-        return NAN;
-    }
-    const double time = gm_flow_of(&problem)->complex->mean_edge / gm_flow_of(&problem)->time_unit;
-    scene->close(&problem);
-    return time;
-}
-
-/* The Courant numbers and time-stepping schemes of a map of the speed's loss. */
-static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
-static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
-
-/* work: WORDS; measure KEY; ... */
-static void make_work(struct gm_user_room *user_room, const struct gm_system_item *item)
-{
-    const struct gm_system_option *errors = gm_system_option(item, GM_OPTION_ERRORS);
-    struct gm_work *work = &user_room->work;
-    *work = (struct gm_work){.halvings = 4};
-    gm_written_work(work, item);
-    check_words(user_room, item->words, item->place);
-    work->schemes =
-        list_schemes(user_room, gm_system_option_text(item, GM_OPTION_SCHEMES, NULL), item->place);
-    check_observable(user_room, work->measure, item->place);
-    gm_system_refuse_if(&user_room->room.system,
-                        (errors && errors->count != 3) || work->halvings < 1 || work->halvings > 30,
-                        item->place, "work: has three errors that fall, and 1 to 30 halvings");
-    user_room->scene.work = work;
-}
-
-/* stability: WORDS; KEY VALUES */
-static void make_map(struct gm_user_room *user_room, const struct gm_system_item *item)
-{
-    const struct gm_system_option *values = gm_system_option(item, GM_OPTION_VALUES);
-    gm_system_refuse_if(&user_room->room.system,
-                        !values || !gm_scene_parameter(&user_room->scene, item->name), item->place,
-                        "stability: needs values of a parameter: reynolds 100, 400");
-    user_room->stability =
-        (struct gm_stability){.arguments = check_words(user_room, item->words, item->place),
-                              .parameter = item->name,
-                              .values = values->numbers,
-                              .value_count = values->count,
-                              .label = "Courant number",
-                              .unit = courant_time,
-                              .steps = courant_numbers,
-                              .step_count = GM_COUNT(courant_numbers),
-                              .kept = "speed_max",
-                              .schemes = marching};
-    user_room->scene.stability = &user_room->stability;
-}
-
-static void make_studies(struct gm_user_room *user_room)
-{
-    const struct gm_room *room = &user_room->room;
-    const struct gm_system_item *work = gm_system_item_of(&room->system, GM_WORD_WORK, 0),
-                                *map = gm_system_item_of(&room->system, GM_WORD_STABILITY, 0), *figure;
-    gm_written_figures(user_room->arena, &room->system, &user_room->scene);
-    for (size_t i = 0; (figure = gm_system_item_of(&room->system, GM_WORD_FIGURE, i)); i++) {
-        check_words(user_room, figure->words, figure->place);
-    }
-    if (work) {
-        make_work(user_room, work);
-    }
-    if (map) {
-        make_map(user_room, map);
-    } else if (gm_room_line(room, GM_ROOM_EXACT)) {
-        user_room->scene.no_stability =
-            "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
-    }
+    gm_written_options(&of_file->observables[i], item);
 }
 
 void gm_room_take_lines(struct gm_user_room *user_room)
 {
+    static const enum gm_system_word worded[] = {GM_WORD_WORK, GM_WORD_STABILITY, GM_WORD_FIGURE};
     const struct gm_user_system *system = &user_room->room.system;
-    const struct gm_read_line *schemes = gm_room_said(&user_room->room, GM_WORD_SCHEMES),
-                              *lanes = gm_room_said(&user_room->room, GM_WORD_LANES);
-    struct gm_scene *scene = &user_room->scene;
+    const struct gm_read_line *lanes = gm_room_said(&user_room->room, GM_WORD_LANES);
+    struct gm_system_scene *of_file = &user_room->of_file;
+    struct gm_scene *scene = &of_file->scene;
     const struct gm_system_item *item;
     make_rows(user_room);
     check_tables(user_room);
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
         observe(user_room, item);
     }
-    scene->observable_count = user_room->observable_count;
-    if (schemes) {
-        scene->schemes = list_schemes(user_room, system->texts[GM_WORD_SCHEMES], schemes->value.begin);
+    if (gm_written_schemes(of_file->arena, system->texts[GM_WORD_SCHEMES],
+                           &(struct gm_problem){.kind = &gm_kind_flow, .m = 1}, of_file->schemes) > 0) {
+        scene->schemes = of_file->schemes;
     }
     if (lanes) {
-        scene->lanes = check_words(user_room, system->texts[GM_WORD_LANES], lanes->value.begin);
+        scene->lanes = system->texts[GM_WORD_LANES];
+        check_words(user_room, scene->lanes, lanes->value.begin);
     }
-    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_GRAPH, i)); i++) {
-        check_observable(user_room, item->name, item->place);
+    for (size_t k = 0; k < GM_COUNT(worded); k++) {
+        for (size_t i = 0; (item = gm_system_item_of(system, worded[k], i)); i++) {
+            check_words(user_room, item->words, item->place);
+        }
     }
-    make_studies(user_room);
     scene->profile = gm_room_said(&user_room->room, GM_WORD_PROFILE) ? gm_room_write_profiles : NULL;
 }

@@ -4,7 +4,8 @@
 
 #include "core/arena.h"
 #include "core/flow/room.h"
-#include "scenes/common/lane.h"
+#include "render/picture/picture.h"
+#include "scenes/common/system/variants.h"
 
 /* The scene of a room, which solves, in the plane,
        omega_t + u . grad omega = nu Laplace omega,   omega = -Laplace psi,   u = (psi_y, -psi_x)
@@ -44,14 +45,6 @@ extern const char *const gm_flows_stars[];
 /* The possible words of the parameter `outlet`, NULL-terminated. */
 extern const char *const gm_flows_outlets[];
 
-/* A room's file; `word` is the word that named it, NULL if the room is one of the program's scenes. */
-struct gm_room_file {
-    const char *text;
-    size_t length;
-    const char *name, *word, *path;
-    bool built_in;
-};
-
 /* The subject of an observable of a room. */
 struct gm_room_subject {
     const struct gm_room_row *row; /* of an observable that is not of a line or a hole */
@@ -62,24 +55,15 @@ struct gm_room_subject {
 };
 
 struct gm_user_room {
-    struct gm_scene scene; /* first, so that a pointer to the scene is one to this */
-    struct gm_arena *arena;
-    struct gm_room_file file;
+    struct gm_system_scene
+        of_file;         /* first: the scene is its first member; its origin has no path if it is built in */
     struct gm_room room; /* the room with its parameters at their defaults */
     struct gm_flows initial;
     const char *mesh;
     const struct gm_built_in *inside; /* the mesh; NULL: it is the file at `mesh` */
-    const char *words[2];
-    struct gm_parameter rows[GM_ROOM_ROWS];
-    struct gm_observable observables[GM_ROOM_OBSERVED];
     struct gm_room_subject subjects[GM_ROOM_OBSERVED];
-    bool overfull;       /* the room has more observables than fit */
-    const char *doubled; /* a key that two observables have; NULL: none */
-    size_t observable_count;
     const char *forces
         [2]; /* keys of the forces on the first hole, shown by a room without a scalar; NULL: not shown */
-    struct gm_work work;
-    struct gm_stability stability;
 };
 
 static inline const struct gm_user_room *gm_user_room_of(const void *parameters)
@@ -91,7 +75,7 @@ static inline const struct gm_user_room *gm_user_room_of(const void *parameters)
 static inline const struct gm_room_subject *gm_room_subject_of(const struct gm_view *view)
 {
     const struct gm_user_room *user_room = gm_user_room_of(view->parameters);
-    return &user_room->subjects[view->observable - user_room->observables];
+    return &user_room->subjects[view->observable - user_room->of_file.observables];
 }
 
 /* Returns the room of a lane, with its parameters. */
@@ -100,6 +84,9 @@ static inline const struct gm_room *gm_room_of(const struct gm_problem *problem)
     return gm_flow_of(problem)->given_by;
 }
 
+/* Adds an observable, whose subject is this one, while the scene is made. */
+void gm_room_observe(struct gm_user_room *user_room, struct gm_observable row,
+                     struct gm_room_subject subject);
 /* Reads the lines other than the boundary, while the scene is made in its arena. */
 void gm_room_take_lines(struct gm_user_room *user_room);
 /* Writes rows of CSV: published points, and profiles. */
@@ -138,5 +125,26 @@ static inline enum gm_room_key gm_room_key_of(char quantity)
 {
     return quantity == 'u' ? GM_ROOM_SPEED_X : quantity == 'v' ? GM_ROOM_SPEED_Y : GM_ROOM_SCALAR;
 }
+
+/* The look of the field of a flow. */
+struct gm_look {
+    const char *axes[2];   /* labels of x and y of the field, if one lane is shown; NULL: none are drawn */
+    double scalar_high;    /* the scalar's range */
+    double temperature[2]; /* the range of the temperature */
+    const char *names[GM_SHOW_TEMPERATURE + 1]; /* labels of the colours */
+    double vorticity_range;                     /* the end of the colours */
+    double speed_high;
+    const char *const *sides; /* names of openings, by the number of their side; NULL: "inlet", "outlet" */
+    const double *levels;     /* levels of psi; NULL: they are chosen by the flow through */
+    size_t level_count;
+};
+
+/* Adds a panel of each lane, all with the same colours; `graphs`: graphs have the lanes' colours. */
+void gm_flow_draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                         const struct gm_look *look, bool graphs);
+
+/* Draws a panel for each quantity of the profiles, the exact one broad and grey, published points in red. */
+void gm_room_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                           enum gm_place place);
 
 #endif

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms from files: the scene of such a room, and its mesh. Lengths, times and concentrations are in the file's units. */
-#include "scenes/flow/user_room.h"
+#include "scenes/flow/room_scene.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/basics.h"
 #include "core/files/files.h"
@@ -15,7 +14,7 @@
 #include "core/linear/cholesky.h"
 #include "core/model/system.h"
 #include "render/files/regular_file.h"
-#include "scenes/common/written.h"
+#include "scenes/common/system/pieces.h"
 
 /* Writes what is wrong with a mesh. Returns false. */
 static bool explain(const char *name, const struct gm_triangulation_fault *fault, char *sentence)
@@ -202,12 +201,13 @@ static void tell(const struct gm_user_room *user_room, const struct gm_fault *fa
     if (!fault->sentence[0]) {
         return;
     }
-    if (fault->offset == GM_ROOM_NOWHERE || user_room->file.built_in) {
+    if (fault->offset == GM_ROOM_NOWHERE || !user_room->of_file.origin.path) {
         gm_refuse(sentence, "%s", fault->sentence);
         return;
     }
     gm_text_place(user_room->room.system.source, fault->offset, &line, &column);
-    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->file.path, line, column, fault->sentence);
+    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", user_room->of_file.origin.path, line, column,
+              fault->sentence);
 }
 
 /* Closes a problem, also one without a flow. */
@@ -223,7 +223,7 @@ static void close_problem(struct gm_problem *problem)
 static struct gm_room *room_for(const struct gm_user_room *user_room, const struct gm_flows *chosen,
                                 const char *outlet, struct gm_fault *fault)
 {
-    const struct gm_scene *scene = &user_room->scene;
+    const struct gm_scene *scene = &user_room->of_file.scene;
     struct gm_system_value given[GM_ROOM_ROWS];
     char texts[GM_ROOM_ROWS][GM_TEXT_SIZE];
     for (size_t i = 0; i < scene->parameter_count; i++) {
@@ -314,14 +314,6 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     struct gm_fault fault;
     char group[GM_TEXT_SIZE];
     enum gm_vertex_kind outlet = GM_VERTEX_SOFT;
-    if (user_room->overfull) {
-        return gm_refuse(sentence,
-                         "a room has at most %d observables: two of an opening, three of a probe or a hole",
-                         GM_ROOM_OBSERVED);
-    }
-    if (user_room->doubled) {
-        return gm_refuse(sentence, "two of the room's names lead to the observable %s", user_room->doubled);
-    }
     if (gm_cholesky_missing()) {
         return gm_refuse(sentence, "the equations of a flow are solved by SuiteSparse: %s",
                          gm_cholesky_missing());
@@ -353,8 +345,9 @@ static bool settle(void *self, const char *const *keys, size_t count, char *sent
     const struct gm_user_room *user_room = gm_user_room_of(self);
     struct gm_fault fault;
     struct gm_room *room = room_for(user_room, self, user_room->initial.outlet, &fault);
-    const struct gm_parameter *row[] = {room ? gm_scene_parameter(&user_room->scene, room->edges) : NULL,
-                                        room ? gm_scene_parameter(&user_room->scene, room->strips) : NULL};
+    const struct gm_parameter *row[] = {
+        room ? gm_scene_parameter(&user_room->of_file.scene, room->edges) : NULL,
+        room ? gm_scene_parameter(&user_room->of_file.scene, room->strips) : NULL};
     if (row[0] && row[1] && row[0]->type == GM_INTEGER && row[1]->type == GM_INTEGER) {
         const bool by_edges = gm_is_given(row[0]->key, keys, count),
                    by_strips = gm_is_given(row[1]->key, keys, count);
@@ -504,8 +497,7 @@ static const char *idle(const void *parameters, const char *key)
     return NULL;
 }
 
-/* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names
-   become _. Too many of them, and a repeated key, are noted. */
+/* Adds observables "NAME_what" of a subject, `from` to `to`, with their units; blanks and signs in names become _. */
 static void observe(struct gm_user_room *user_room, const char *name, enum local from, enum local to,
                     struct gm_room_subject subject)
 {
@@ -533,28 +525,21 @@ static void observe(struct gm_user_room *user_room, const char *name, enum local
         [CIRCULATION] = {"circulation", "circulation", {{2, -1, 0}}, NULL},
     };
     for (int what = (int)from; what <= (int)to; what++) {
-        const size_t i = user_room->observable_count;
-        if (i == GM_ROOM_OBSERVED) {
-            user_room->overfull = true;
-            return;
-        }
-        char *key = gm_arena_print(user_room->arena, "%s_%s", name, rows[what].what), unit[GM_ROOM_UNIT + 8];
+        char *key = gm_arena_print(user_room->of_file.arena, "%s_%s", name, rows[what].what),
+             unit[GM_ROOM_UNIT + 8];
         for (char *at = key; *at; at++) {
             *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
         }
-        for (size_t k = 0; k < i && !user_room->doubled; k++) {
-            const char *other = user_room->observables[k].key;
-            user_room->doubled = strcmp(other, key) == 0 ? other : NULL;
-        }
-        user_room->observables[i] = (struct gm_observable){
-            .key = key,
-            .title = gm_arena_print(user_room->arena, "%s %s%s", name, rows[what].title,
-                                    gm_room_beside_unit(user_room, rows[what].powers, unit)),
-            .evaluate = observe_local,
-            .missing = rows[what].missing};
         subject.what = what;
-        user_room->subjects[i] = subject;
-        user_room->observable_count++;
+        gm_room_observe(
+            user_room,
+            (struct gm_observable){
+                .key = key,
+                .title = gm_arena_print(user_room->of_file.arena, "%s %s%s", name, rows[what].title,
+                                        gm_room_beside_unit(user_room, rows[what].powers, unit)),
+                .evaluate = observe_local,
+                .missing = rows[what].missing},
+            subject);
     }
 }
 
@@ -565,18 +550,18 @@ static void observe_common(struct gm_user_room *user_room, bool heat)
     char unit[GM_ROOM_UNIT + 8];
     for (const struct gm_room_row *row = gm_room_rows + GM_ROOM_COMMON;
          row + !heat < gm_room_rows + GM_ROOM_KINDS; row++) {
-        struct gm_observable *observable = &user_room->observables[user_room->observable_count];
-        user_room->subjects[user_room->observable_count++].row = row;
-        *observable = row->observable;
-        observable->title = row->of_scalar && scalar
-                                ? gm_arena_print(user_room->arena, "%s %s", row->of_scalar, scalar)
-                                : gm_arena_print(user_room->arena, "%s%s", observable->title,
-                                                 gm_room_beside_unit(user_room, row->powers, unit));
+        struct gm_observable observable = row->observable;
+        observable.title = row->of_scalar && scalar
+                               ? gm_arena_print(user_room->of_file.arena, "%s %s", row->of_scalar, scalar)
+                               : gm_arena_print(user_room->of_file.arena, "%s%s", observable.title,
+                                                gm_room_beside_unit(user_room, row->powers, unit));
+        gm_room_observe(user_room, observable, (struct gm_room_subject){.row = row});
     }
 }
 
 static void make_observables(struct gm_user_room *user_room, const struct gm_triangulation *mesh)
 {
+    gm_system_take_observables(&user_room->of_file, GM_ROOM_OBSERVED);
     const struct gm_room *room = &user_room->room;
     const bool heat = !isnan(room->buoyancy);
     bool brought = false;
@@ -598,14 +583,14 @@ static void make_observables(struct gm_user_room *user_room, const struct gm_tri
             observe(user_room, line->name, HEAT, HEAT, subject);
         }
     }
-    const size_t first = user_room->observable_count;
+    const size_t first = user_room->of_file.observable_count;
     for (size_t hole = 1; mesh->complex && hole < mesh->complex->loops; hole++) {
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
         observe(user_room, name, DRAG, CIRCULATION, (struct gm_room_subject){.number = hole});
     }
-    for (size_t k = 0; k < 2 && !brought && first + 1 < user_room->observable_count; k++) {
-        user_room->forces[k] = user_room->observables[first + k].key;
+    for (size_t k = 0; k < 2 && !brought && first + 1 < user_room->of_file.observable_count; k++) {
+        user_room->forces[k] = user_room->of_file.observables[first + k].key;
     }
 }
 
@@ -623,121 +608,117 @@ static const char *make_mark(struct gm_user_room *user_room, const struct gm_tri
             sum = gm_written_sum(sum, &group, sizeof group);
         }
     }
-    return gm_arena_print(user_room->arena, "%s:%08x", user_room->file.name, (unsigned)sum);
+    return gm_arena_print(user_room->of_file.arena, "%s:%08x", user_room->of_file.origin.name, (unsigned)sum);
 }
 
-/* Finds the mesh: a file, or a built-in one. */
-static void find_mesh(struct gm_user_room *user_room)
+/* Returns the time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt
+   over it. NAN if setup refuses. */
+static double courant_time(const void *parameters)
 {
-    const struct gm_room_file *file = &user_room->file;
-    const char *mesh = user_room->room.system.texts[GM_WORD_MESH],
-               *slash = mesh[0] == '/' ? NULL : strrchr(file->path, '/');
-    user_room->mesh = gm_arena_print(user_room->arena, "%.*s%s", slash ? (int)(slash + 1 - file->path) : 0,
-                                     file->path, mesh);
-    if (file->built_in || access(user_room->mesh, F_OK) != 0) {
-        user_room->inside = gm_built_in_find(GM_FILE_MESH, mesh);
+    const struct gm_scene *scene = &gm_user_room_of(parameters)->of_file.scene;
+    struct gm_problem problem = {0};
+    char sentence[GM_MESSAGE];
+    if (!scene->setup(parameters, &problem, sentence)) {
+        return NAN;
+    }
+    const double time = gm_flow_of(&problem)->complex->mean_edge / gm_flow_of(&problem)->time_unit;
+    scene->close(&problem);
+    return time;
+}
+
+/* The Courant numbers of a map of the speed's loss. */
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+
+/* The studies of a room: of a mesh from a file by finer ones, of a rectangle by its lines alone. */
+static void make_studies(struct gm_user_room *user_room)
+{
+    static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+    static const double parts[] = {1, 2}, accuracies[] = {1e-1, 3e-2, 1e-2};
+    struct gm_system_scene *of_file = &user_room->of_file;
+    const struct gm_user_system *system = &of_file->system;
+    const bool works = gm_system_item_of(system, GM_WORD_WORK, 0);
+    of_file->work = (struct gm_work){.coarsest = 4 * gm_room_timing(&user_room->room, GM_WORD_DT, 0.01),
+                                     .halvings = works ? 4 : 0};
+    if (!works && !user_room->room.rectangular) {
+        of_file->work = (struct gm_work){
+            .arguments = "tracers=0",
+            .halvings = 3,
+            .schemes = marching,
+            .reference = "crank-nicolson",
+            .resolution = "refine",
+            .resolutions = parts,
+            .resolution_count = GM_COUNT(parts),
+            .errors = accuracies,
+            .distance = distance,
+            .distance_title = "largest relative distance of stream function, scalar and temperature",
+        };
+    }
+    of_file->stability = (struct gm_stability){.label = "Courant number",
+                                               .unit = courant_time,
+                                               .steps = courant_numbers,
+                                               .step_count = GM_COUNT(courant_numbers)};
+    gm_system_make_studies(of_file, &(struct gm_problem){.kind = &gm_kind_flow, .m = 1}, NULL);
+    struct gm_stability *map = &of_file->stability;
+    map->kept = map->kept ? map->kept : "speed_max";
+    map->schemes = map->schemes ? map->schemes : marching;
+    if (!of_file->scene.stability && gm_room_line(&user_room->room, GM_ROOM_EXACT)) {
+        of_file->scene.no_stability =
+            "its exact solution is known, and work-precision measures its steps; stability cavity maps the same schemes";
     }
 }
 
-/* A scene while it is made, and the fault of its file. */
-struct making {
-    const struct gm_room_file *file;
-    struct gm_fault *wrong;
-    struct gm_user_room *user_room;
-};
-
-static void make(struct gm_arena *arena, void *data)
+static void make(struct gm_system_making *making)
 {
-    static const char *const schemes[] = {"semi-implicit", NULL}, *const compared[] = {"semi-implicit",
-                                                                                       "crank-nicolson",
-                                                                                       NULL};
-    static const double parts[] = {1, 2}, accuracies[] = {1e-1, 3e-2, 1e-2};
-    static const struct gm_work work = {
-        .arguments = "tracers=0",
-        .halvings = 3,
-        .schemes = compared,
-        .reference = "crank-nicolson",
-        .resolution = "refine",
-        .resolutions = parts,
-        .resolution_count = GM_COUNT(parts),
-        .errors = accuracies,
-        .distance = distance,
-        .distance_title = "largest relative distance of stream function, scalar and temperature",
-    };
-    struct making *making = data;
-    const struct gm_room_file *file = making->file;
-    /* a block of its own: a pointer to it makes all that the arena has reachable for checks of leaks */
-    struct gm_user_room *user_room = making->user_room =
-        gm_arena_keep(arena, calloc(1, sizeof *user_room), free);
+    static const char *const usual[] = {"semi-implicit", NULL};
+    struct gm_system_scene *of_file = making->scene;
+    struct gm_user_room *user_room = (struct gm_user_room *)of_file;
+    struct gm_arena *arena = of_file->arena;
+    struct gm_scene *scene = &of_file->scene;
     struct gm_triangulation *mesh = gm_arena_take(arena, 1, sizeof *mesh);
+    struct gm_room *room = &user_room->room;
     char sentence[GM_MESSAGE];
-    user_room->arena = arena;
-    user_room->file = (struct gm_room_file){.name = gm_arena_print(user_room->arena, "%s", file->name),
-                                            .path = gm_arena_print(user_room->arena, "%s", file->path),
-                                            .built_in = file->built_in};
-    gm_room_read(arena, &user_room->room, &(struct gm_room_input){file->text, file->length, NULL, 0},
-                 making->wrong);
-    const struct gm_room *room = &user_room->room;
-    char *const *texts = room->system.texts;
-    user_room->scene = (struct gm_scene){
-        .name = user_room->file.name,
-        .title = texts[GM_WORD_TITLE] ? texts[GM_WORD_TITLE] : "A user-defined room",
-        .blurb = texts[GM_WORD_ABOUT] ? texts[GM_WORD_ABOUT] : "A user-defined room.",
-        .watch = texts[GM_WORD_WATCH] ? texts[GM_WORD_WATCH] : "",
-        .time = texts[GM_WORD_TIME] ? texts[GM_WORD_TIME] : "the unit of the room's numbers",
-        .size = sizeof user_room->initial,
-        .initial = &user_room->initial,
-        .schemes = schemes,
-        .observables = user_room->observables,
-        .idle = idle,
-        .settle = settle,
-        .setup = setup,
-        .readable = readable,
-        .chosen = note_star,
-        .note = note_origin,
-        .close = close_problem,
-        .start_with = start,
-        .draw = gm_room_draw,
-        .failure = tell_failure,
-    };
+    gm_room_read(arena, room,
+                 &(struct gm_room_input){of_file->system.source, of_file->system.length, NULL, 0},
+                 making->fault);
+    of_file->system = room->system; /* whose memory is the scene's, and whose graph the room's */
+    of_file->system.arena = NULL;
+    of_file->system.graph = (struct gm_formula){0};
     user_room->initial.room = user_room;
     user_room->initial.refine = 1;
     snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "none");
     if (!room->rectangular) {
-        find_mesh(user_room);
+        user_room->mesh = gm_system_find_mesh(of_file, room->system.texts[GM_WORD_MESH], &user_room->inside);
         snprintf(user_room->initial.mesh, sizeof user_room->initial.mesh, "%s", user_room->mesh);
-        user_room->scene.work = &work;
         gm_arena_keep(arena, mesh, gm_triangulation_close);
-        if (!open_mesh(&user_room->initial, NULL, mesh, sentence)) {
-            gm_arena_refuse(arena, "%s", sentence);
-        }
+        making->unread = !open_mesh(&user_room->initial, NULL, mesh, sentence);
+        gm_arena_check(arena, !making->unread, sentence);
     }
+    gm_system_describe(of_file, (struct gm_scene){.title = "A user-defined room",
+                                                  .blurb = "A user-defined room.",
+                                                  .time = "the unit of the room's numbers",
+                                                  .schemes = usual,
+                                                  .idle = idle,
+                                                  .setup = setup,
+                                                  .readable = readable,
+                                                  .chosen = note_star,
+                                                  .note = note_origin,
+                                                  .close = close_problem,
+                                                  .start_with = start,
+                                                  .draw = gm_room_draw,
+                                                  .failure = tell_failure});
+    scene->size = sizeof user_room->initial; /* a lane has parameters of its own, of one room */
+    scene->initial = &user_room->initial;
+    scene->variant = NULL;
+    scene->settle = settle;
     make_observables(user_room, mesh);
     gm_room_take_lines(user_room);
-    if (file->word) {
-        user_room->words[0] = gm_arena_print(user_room->arena, "%s", file->word);
-        user_room->scene.words = user_room->words;
-        user_room->scene.room = room->system.source;
-        user_room->scene.mark = make_mark(user_room, mesh);
+    make_studies(user_room);
+    if (scene->words) {
+        scene->room = scene->source;
+        scene->mark = make_mark(user_room, mesh);
+        scene->source = scene->text = NULL;
     }
     gm_triangulation_close(mesh);
 }
 
-const struct gm_scene *gm_user_room_open(const struct gm_room_file *file, struct gm_fault *fault,
-                                         char *sentence)
-{
-    struct making making = {file, fault, NULL};
-    struct gm_arena *arena = gm_arena_open();
-    *fault = (struct gm_fault){0};
-    if (!gm_arena_run(arena, make, &making)) {
-        gm_refuse(sentence, "%s", gm_arena_reason(arena));
-        gm_arena_close(arena);
-        return NULL;
-    }
-    return &making.user_room->scene;
-}
-
-void gm_user_room_close(const struct gm_scene *scene)
-{
-    gm_arena_close(((const struct gm_user_room *)scene)->arena); /* the scene is its first member */
-}
+const struct gm_system_maker gm_system_rooms = {.size = sizeof(struct gm_user_room), .make = make};

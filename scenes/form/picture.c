@@ -179,7 +179,9 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         gm_form_draw_grid(&sheet, (struct gm_style){style.role, 0.3, 0.8, GM_SOLID}, false);
     }
     if (self->dual) {
-        gm_form_draw_dual(&sheet, (struct gm_style){GM_INITIAL, 0.9, 1.2, GM_SOLID});
+        /* white dashes differ from arrows, and are seen on all colours of one sign */
+        gm_form_draw_dual(&sheet, (struct gm_style){over ? GM_OVER : GM_INITIAL, 0.9, 1.2,
+                                                    over ? GM_SHORT_DASH : GM_SOLID});
     }
     if (self->streamlines && (painted.type.degree == 0) != painted.type.dual) {
         draw_levels(&sheet, painted.value, range, style);

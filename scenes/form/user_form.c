@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <unistd.h>
-
 #include "core/schemes.h"
 #include "render/files/regular_file.h"
 #include "scenes/common/system/pieces.h"
@@ -78,19 +76,8 @@ static double observe(const struct gm_view *view)
 
 static void add(struct gm_form_scene *scene, struct gm_observable row, struct gm_form_subject subject)
 {
-    struct gm_system_scene *of_file = &scene->of_file;
-    for (size_t k = 0; k < of_file->observable_count; k++) {
-        if (gm_observables_clash(row.key, of_file->observables[k].key)) {
-            gm_arena_refuse(of_file->arena, "there are two observables %s", row.key);
-        }
-    }
-    if (of_file->observable_count == GM_MOST_FORM_OBSERVABLES) {
-        gm_arena_refuse(of_file->arena, "a system of forms has at most %d observables",
-                        GM_MOST_FORM_OBSERVABLES);
-    }
-    of_file->measures[of_file->observable_count] =
+    *gm_system_add_observable(&scene->of_file, row, GM_MOST_FORM_OBSERVABLES) =
         (struct gm_system_measure){.what = subject.what, .index = subject.index};
-    of_file->observables[of_file->observable_count++] = row;
 }
 
 /* Adds an observable of a form, whose key and title have its name. */
@@ -159,7 +146,6 @@ static void make_observables(struct gm_form_scene *scene)
         add(scene, (struct gm_observable)GM_OBSERVABLE(facts[i].key, observe, facts[i].title),
             (struct gm_form_subject){GM_FORM_FACT, i});
     }
-    of_file->scene.observable_count = of_file->observable_count;
 }
 
 /* ---- keys ---- */
@@ -282,26 +268,26 @@ static void make_schemes(struct gm_form_scene *scene, const struct gm_problem *p
     of_file->scene.lanes = of_file->system.texts[GM_WORD_LANES];
 }
 
-/* Reads the file of the mesh: its name is relative to the system's file, or else to the folder where the program
-   runs. */
+/* Reads the file of the mesh. */
 static void read_mesh(struct gm_form_scene *scene, bool *unread)
 {
-    const char *path = scene->of_file.origin.path;
     enum { LARGEST = 1 << 29 };
+    struct gm_form_model *model = &scene->model;
     struct gm_arena *arena = scene->of_file.arena;
-    const char *name = gm_system_item_of(&scene->of_file.system, GM_WORD_MESH, 0)->name;
-    const char *slash = path && name[0] != '/' ? strrchr(path, '/') : NULL;
-    const char *beside =
-        gm_arena_print(arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path ? path : "", name);
-    char reason[GM_REGULAR_REASON];
-    scene->model.mesh_name = name;
-    char *text =
-        gm_regular_read(access(beside, F_OK) == 0 ? beside : name, LARGEST, &scene->model.mesh_size, reason);
+    const struct gm_built_in *inside;
+    model->mesh_name = gm_system_item_of(&scene->of_file.system, GM_WORD_MESH, 0)->name;
+    const char *path = gm_system_find_mesh(&scene->of_file, model->mesh_name, &inside);
+    if (inside) {
+        model->mesh_text = inside->text;
+        model->mesh_size = inside->length;
+        return;
+    }
+    char reason[GM_REGULAR_REASON], *text = gm_regular_read(path, LARGEST, &model->mesh_size, reason);
     *unread = !text;
     if (!text) {
-        gm_arena_refuse(arena, "mesh: %.130s could not be read: %s", name, reason);
+        gm_arena_refuse(arena, "mesh: %.130s could not be read: %s", model->mesh_name, reason);
     }
-    scene->model.mesh_text = gm_arena_keep(arena, text, free);
+    model->mesh_text = gm_arena_keep(arena, text, free);
 }
 
 static void make(struct gm_system_making *making)

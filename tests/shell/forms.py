@@ -108,6 +108,16 @@ for name, numbers in expected.items():
               f"{name}: {key} is {found.get(key)}, not {value}")
 check(cases["sand"]["f_residual"] < 1e-14 and cases["membrane"]["u_residual"] < 1e-14, "residuals of equations")
 
+# a group that is a number, and is not there
+with open(os.path.join(CASES, "sand.system"), encoding="utf-8") as stream:
+    numbered = stream.read().replace("boundary: left f", "boundary: 77 f").replace("plate.msh", os.path.join(CASES, "plate.msh"))
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "numbered.system")
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(numbered)
+    status, out, err = run([path])
+    check(status == 1 and "77 is not a part of the boundary" in err, f"group 77 exits {status}: {err}")
+
 # what flows out and what the cells at the left take is all that ages
 found = observed("form-age", "interior=upwind")
 check(abs(found["outflow"] + found["taken"] - 3) < 1e-12 and found["outflow"] > 2.9, f"form-age: {found}")
@@ -198,6 +208,7 @@ REFUSED = [
     (WAVE, "sphere 1 2", "torus 2 1 20 7", "not an even number"),
     (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
     (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
+    (WAVE, "sphere 1 2", "sphere; width 2", "2:21: a mesh has at most five numbers, and a rectangle alone names them"),
     (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
     (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "and its least star entry is -"),
     (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),
@@ -310,6 +321,12 @@ check([form.get("equation") for form in vorticity["forms"][:2]] == [None, "0-for
       [factor["symmetric"] for factor in vorticity["factors"]] == [True], f"{vorticity}")
 # the lower triangle of the matrix is within its factor: 2562 vertices and 7680 edges
 check(vorticity["factors"][0]["entries"] > 2562 + 7680, "the size of a factor")
+
+# the numbers of a rectangle in their order, or with their names
+check(observed("form-maxwell", "mesh=rectangle; height 1; width 2; edges 16; strips 10", "steps=20") ==
+      observed("form-maxwell", "mesh=rectangle 2 1 16 10", "steps=20"), "numbers with names make another rectangle")
+check(observed("form-darcy", "mesh=rectangle 2 1 16; irregular 0.1")["vertices"] ==
+      observed("form-darcy", "mesh=rectangle 2 1 16")["vertices"], "the best number of strips is another one")
 
 # a harmonic field goes round both circles alike, and a place is found on every mesh
 found = written("""geomint: 1

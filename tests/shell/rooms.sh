@@ -329,7 +329,7 @@ wrong 'wrong.room:5:21: the speed is not finite' 'inlet: vent speed = 1/(s-s)'
 wrong 'no more enters by the profile' 'inlet: vent flow = 0.05 speed = sin(2*pi*s)'
 wrong 'wrong.room:5:8: no more enters by the profile' 'inlet: vent speed = -0.01'
 wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
-wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
+wrong 'there are two observables a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
 wrong 'at most 160 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # parameters, choices and rectangles of one's own
 wrong 'wrong.room:5:12: a name was expected' 'parameter: 3 = 1'
@@ -344,14 +344,14 @@ wrong 'boundary: needs stream_function =' 'boundary: pillar scalar = 1'
 wrong 'exact: needs stream_function =' 'exact: scalar = 1'
 wrong 'wrong.room:1:7: a rectangle has a width, a height and a number of edges' '' 's/mesh: hole.msh/mesh: rectangle; width 1; height 1/'
 wrong 'wrong.room:5:10: this is nothing that is observed of a room' 'observe: nonsense'
-wrong 'wrong.room:5:8: this is not an observable of the room' 'graph: nonsense'
+wrong 'wrong.room:5:8: graph: nonsense is not an observable' 'graph: nonsense'
 wrong 'wrong.room:5:14: .*nonsense' 'levels: 0.1, nonsense'
-wrong 'wrong.room:5:10: rk4 is not a scheme of rooms' 'schemes: rk4'
-wrong 'wrong.room:5:10: stedy is not a scheme of rooms' 'schemes: steady stedy'
+wrong 'wrong.room:5:10: schemes: rk4 does not fit this system' 'schemes: rk4'
+wrong 'wrong.room:5:17: schemes: stedy is not a scheme' 'schemes: steady stedy'
 wrong 'wrong.room:5:10: a profile has a name' 'profile: middle u; 0.5; 1; 3'
 wrong 'wrong.room:5:8: a table has a name and a profile' 'table: of nothing; a = 1; 0 1'
-wrong 'work: has three errors' 'work: until=1; errors 1, 2'
-wrong 'stability: needs values of a parameter' 'stability: until=1'
+wrong 'work: errors are three numbers that fall' 'work: until=1; errors 1, 2'
+wrong 'stability: a parameter and its values are missing' 'stability: until=1'
 
 # what a line says once, or with one name, is said once
 wrong 'wrong.room:6:1: geomint: is given twice' 'geomint: 1\ngeomint: 1'
@@ -401,6 +401,15 @@ boxed 'keep: has two numbers, x, y' 'width 1; height 1; edges 8; keep 0, 1, 2'
 boxed 'boxed.room:3:8: no edge of the rectangle is called door: it needs a line side: door; x = 0' \
     'width 1; height 1; edges 8' 'inlet: door  flow = 1'
 boxed 'boxed.room:4:1: side: is given twice' 'width 1; height 1; edges 8' 'side: a; x = 0\nside: a; x = 1'
+
+# the numbers of a rectangle in their order, or with their names
+shaped() {
+    printf '%s\n' "mesh: rectangle$1" 'viscosity: 0.1' 'start: vorticity = x*(1 - x)' 'wall: all  scalar = 0' >shaped.room
+    state_of ./shaped.room steps=3
+}
+[ "$(shaped ' 1 0.5 8 6; irregular 0.1')" = "$(shaped '; height 0.5; width 1; edges 8; strips 6; irregular 0.1')" ] ||
+    fail 'numbers with names make another rectangle'
+boxed 'a rectangle has width, height' 'width 1; height 1; edges 8; heigth 2'
 
 # a wall slips where it says so
 slipping() {

@@ -39,9 +39,11 @@ static struct gm_form_space generated(const char *word, const double *numbers, s
     struct gm_triangulation_fault fault;
     struct gm_form_space space;
     assert_true(gm_generator_check(word, numbers, count, 0, &wrong));
-    struct gm_complex *complex = gm_generator_open(word, numbers, count, star, &fault);
-    assert_non_null(complex);
-    assert_true(gm_form_space_open(&space, complex));
+    struct gm_triangulation mesh;
+    assert_true(gm_generator_open(word, numbers, count, star, &mesh, &fault));
+    assert_true(gm_form_space_open(&space, mesh.complex));
+    mesh.complex = NULL; /* the space has it */
+    gm_triangulation_close(&mesh);
     return space;
 }
 

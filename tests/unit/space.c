@@ -181,9 +181,10 @@ static void test_surfaces(void **state)
         {"torus", {2, 0.8, 24}, 3}, {"torus", {1, 0.3, 40}, 3}, {"sphere", {1, 2}, 2}, {"sphere", {1, 0}, 2}};
     for (size_t m = 0; m < GM_COUNT(meshes); m++) {
         struct gm_triangulation_fault fault;
-        struct gm_complex *complex =
-            gm_generator_open(meshes[m].word, meshes[m].numbers, meshes[m].count, GM_STAR_AUTO, &fault);
-        assert_non_null(complex);
+        struct gm_triangulation mesh;
+        assert_true(gm_generator_open(meshes[m].word, meshes[m].numbers, meshes[m].count, GM_STAR_AUTO, &mesh,
+                                      &fault));
+        const struct gm_complex *complex = mesh.complex;
         for (int view = 0; view < 7; view++) {
             struct gm_picture *picture = gm_picture_open();
             struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
@@ -224,7 +225,7 @@ static void test_surfaces(void **state)
             assert_true(10 * wrong <= sheet.count);
             gm_picture_close(picture);
         }
-        gm_complex_close(complex);
+        gm_triangulation_close(&mesh);
     }
 }
 

@@ -37,7 +37,7 @@ struct stage_factor {
 struct opening {
     struct own *own;
     const struct gm_form_model *model;
-    struct gm_triangulation file; /* or the complex alone, of a generator */
+    struct gm_triangulation file;
     const double *variables;
     struct gm_form_choice choice;
     double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
@@ -64,9 +64,8 @@ struct own {
     struct gm_arena *arena; /* owns all of this */
     const struct gm_form_model *model;
     struct gm_form_choice choice;
-    double *variables;                    /* that it was opened with */
-    double numbers[GM_GENERATOR_NUMBERS]; /* of the mesh */
-    struct gm_triangulation file;         /* the groups of its edges; empty if the mesh is not of a file */
+    double *variables;            /* that it was opened with */
+    struct gm_triangulation file; /* the groups of its edges */
     struct gm_form_space space;
     struct gm_form_values rates, exacts, equations, observed;
     struct gm_matrix *closings; /* for each item of the system */
@@ -417,15 +416,16 @@ static bool open_mesh(struct opening *opening, enum gm_star star, struct gm_faul
         !gm_generator_check(mesh->name, opening->numbers, mesh->count, mesh->place, fault)) {
         return false;
     }
-    opening->file.complex = gm_generator_open(mesh->name, opening->numbers, mesh->count, star, &wrong);
-    if (!opening->file.complex && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
+    const bool made =
+        gm_generator_open(mesh->name, opening->numbers, mesh->count, star, &opening->file, &wrong);
+    if (!made && wrong.kind == GM_TRIANGULATION_NOT_DELAUNAY) {
         return gm_fail(
             fault, mesh->place,
             "this mesh has a dual edge that is not positive, beside an angle of %.1f degrees, and its least star "
             "entry is %s: take star=auto or star=barycentric",
             wrong.value, wrong.text);
     }
-    return opening->file.complex != NULL;
+    return made;
 }
 
 /* ---- unknowns ---- */
@@ -614,9 +614,9 @@ static void solve(struct own *own, double t)
     memset(right, 0, own->size * sizeof *right);
     gm_form_values_run(&own->equations, t, own->forms);
     for (size_t k = 0; k < model->unknown_count; k++) {
-        const size_t form = model->unknowns[k], first = own->offset[form];
+        const size_t form = model->unknowns[k], first = own->offset[form], size = size_of(own, form);
         const double *residual = gm_form_values_root(&own->equations, k);
-        for (size_t j = 0; j < size_of(own, form); j++) {
+        for (size_t j = 0; j < size; j++) {
             right[first + j] = -residual[j] * own->weight[first + j];
         }
         remove_means(own, form, right, true);
@@ -706,7 +706,8 @@ static void write_rates(const struct gm_problem *problem, const double *y, doubl
     for (size_t k = first; k < last; k++) {
         const size_t form = model->fields[k], offset = own->offset[form];
         const double *rate = gm_form_values_root(&own->rates, k);
-        for (size_t j = 0; j < size_of(own, form); j++) {
+        const size_t size = size_of(own, form);
+        for (size_t j = 0; j < size; j++) {
             f[offset - base + j] = own->held[offset + j] ? 0 : rate[j];
         }
     }
@@ -918,49 +919,22 @@ static bool correct(const struct gm_problem *problem, const struct gm_stages *st
 
 /* ---- the problem ---- */
 
-/* Leaves the body: there is no part of this name; `line` is the word of its line. */
-_Noreturn static void refuse_part(const struct own *own, const char *line, const char *part)
-{
-    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name, *names = "none";
-    char groups[200];
-    if (own->file.arena) {
-        names = gm_triangulation_group_names(&own->file, groups, sizeof groups);
-    } else {
-        const char *const *parts = gm_generator_parts(word);
-        for (size_t i = 0; parts[i]; i++) {
-            names = i == 0 ? parts[0] : gm_arena_print(own->arena, "%s, %s", names, parts[i]);
-        }
-    }
-    gm_arena_refuse(own->arena, "%s: %.40s is not a part of the boundary; the parts of %.60s are: %s", line,
-                    part, word, names);
-}
-
-/* Marks the edges of the boundary that are on a part. */
+/* Marks the edges of the boundary that are on a part. Leaves the body if there is none of this name; `line` is the word
+   of its line. */
 static void mark_part(const struct own *own, const char *line, const char *part, bool *edges)
 {
-    const char *word = gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name;
     const struct gm_complex *complex = own->space.complex;
-    const bool all = strcmp(part, "all") == 0;
-    const long group = own->file.arena && !all ? gm_triangulation_group(&own->file, part) : 0;
-    bool there = (all && complex->boundary > 0) || group != 0;
-    const char *const *parts = own->file.arena ? NULL : gm_generator_parts(word);
-    for (size_t i = 0; parts && parts[i]; i++) {
-        there |= strcmp(parts[i], part) == 0;
-    }
-    if (!there) {
-        refuse_part(own, line, part);
-    }
+    const bool all = strcmp(part, "all") == 0 && complex->boundary > 0;
+    const long group = all ? 0 : gm_triangulation_group(&own->file, part);
+    char groups[200];
+    gm_arena_refuse_if(own->arena, !all && group == 0,
+                       "%s: %.40s is not a part of the boundary; the parts of %.60s are: %s", line, part,
+                       gm_system_item_of(own->model->system, GM_WORD_MESH, 0)->name,
+                       gm_triangulation_group_names(&own->file, groups, sizeof groups));
     memset(edges, 0, complex->edges * sizeof *edges);
     for (size_t b = 0; b < complex->boundary; b++) {
-        double p[3], q[3], middle[3];
         const size_t e = (size_t)complex->boundary_edge[b];
-        gm_complex_vertex(complex, (size_t)complex->edge[2 * e], p);
-        gm_complex_vertex(complex, (size_t)complex->edge[2 * e + 1], q);
-        for (int c = 0; c < 3; c++) {
-            middle[c] = (p[c] + q[c]) / 2;
-        }
-        edges[e] = all || (group != 0 ? gm_triangulation_has(&own->file, e, group)
-                                      : gm_generator_on(word, own->numbers, part, middle));
+        edges[e] = all || gm_triangulation_has(&own->file, e, group);
     }
 }
 
@@ -1212,7 +1186,6 @@ static void make(struct gm_arena *arena, void *data)
     own->arena = arena;
     own->model = model;
     own->seen_time = NAN;
-    memcpy(own->numbers, opening->numbers, sizeof own->numbers);
     own->file = opening->file;
     own->file.complex = NULL; /* the space takes it */
     opening->file = (struct gm_triangulation){0};
@@ -1265,6 +1238,7 @@ static void make(struct gm_arena *arena, void *data)
     make_arcs(own, &own->observed);
     own->rates.closings = own->equations.closings = own->observed.closings = own->held_values.closings =
         own->closings;
+    own->equations.fixed = own->held_changes ? 0 : GM_NEEDS_UNKNOWNS; /* it is run at those that are given */
     if (own->unknowns > 0) {
         memcpy(own->unknown, own->given, own->unknowns * sizeof *own->unknown);
         point_at(own, own->start);

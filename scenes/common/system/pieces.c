@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "core/model/equations.h"
 
@@ -55,11 +56,40 @@ struct gm_tape *gm_system_take_tape(struct gm_system_scene *system_scene, const 
     return tape;
 }
 
+const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char *name,
+                                const struct gm_built_in **inside)
+{
+    const char *path = system_scene->origin.path ? system_scene->origin.path : "",
+               *slash = name[0] == '/' ? NULL : strrchr(path, '/'),
+               *beside = gm_arena_print(system_scene->arena, "%.*s%s", slash ? (int)(slash + 1 - path) : 0,
+                                        path, name);
+    const bool there = path[0] && access(beside, F_OK) == 0;
+    *inside = there ? NULL : gm_built_in_find(GM_FILE_MESH, name);
+    return there || *inside || access(name, F_OK) != 0 ? beside : name;
+}
+
 void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most)
 {
     system_scene->observables = gm_arena_take(system_scene->arena, most, sizeof *system_scene->observables);
     system_scene->measures = gm_arena_take(system_scene->arena, most, sizeof *system_scene->measures);
     system_scene->scene.observables = system_scene->observables;
+}
+
+struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *system_scene,
+                                                   struct gm_observable row, size_t most)
+{
+    const size_t count = system_scene->observable_count;
+    for (size_t k = 0; k < count; k++) {
+        if (gm_observables_clash(row.key, system_scene->observables[k].key)) {
+            gm_arena_refuse(system_scene->arena, "there are two observables %s", row.key);
+        }
+    }
+    if (count == most) {
+        gm_arena_refuse(system_scene->arena, "a system of this kind has at most %zu observables", most);
+    }
+    system_scene->observables[count] = row;
+    system_scene->scene.observable_count = ++system_scene->observable_count;
+    return &system_scene->measures[count];
 }
 
 /* ---- keys ---- */

@@ -4,6 +4,7 @@
 #ifndef GM_SCENES_COMMON_SYSTEM_PIECES_H
 #define GM_SCENES_COMMON_SYSTEM_PIECES_H
 
+#include "core/files/files.h"
 #include "scenes/common/system/look.h"
 
 /* Returns values of all variables at the start, from the rows that are `given`, or from all rows if NULL.
@@ -13,8 +14,18 @@ double *gm_system_start_values(const struct gm_system_lane *lane, const char *gi
 /* Returns half the length of a field's line, which may follow from other keys; NaN when out of memory. */
 double gm_system_half_length(const struct gm_system_lane *lane);
 
+/* Returns the path of the mesh that a file names, in the arena of its scene: beside the file or, without such a file, in
+   the folder where the program runs. Sets *inside to the built-in mesh of that name if the first is missing, or to NULL. */
+const char *gm_system_find_mesh(struct gm_system_scene *system_scene, const char *name,
+                                const struct gm_built_in **inside);
+
 /* Takes the tables of at most that many observables, which are those of the scene; in a body of its arena. */
 void gm_system_take_observables(struct gm_system_scene *system_scene, size_t most);
+
+/* Adds an observable to them. Returns its measure, which the caller sets. Refuses a key that is there, and more than
+   `most`. */
+struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *system_scene,
+                                                   struct gm_observable row, size_t most);
 
 /* Opens a tape whose inputs are all variables, so that lanes with different parameters share it. It lives as
    long as the scene. In a body of the scene's arena. */

@@ -39,7 +39,8 @@ static void make_work(struct gm_system_scene *system_scene, const struct gm_prob
     const struct gm_system_item *item = gm_system_item_of(&system_scene->system, GM_WORD_WORK, 0);
     struct gm_arena *arena = system_scene->arena;
     struct gm_work *work = &system_scene->work;
-    system_scene->scene.work = work;
+    system_scene->scene.work =
+        item || system_scene->radian > 0 || work->halvings > 0 ? work : NULL; /* or the file has none */
     if (system_scene->radian > 0) { /* a field has a work of its own */
         work->coarsest = system_scene->radian;
         work->halvings = 8;

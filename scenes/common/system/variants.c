@@ -243,7 +243,9 @@ static void make(struct gm_arena *arena, void *data)
     *taking->system = (struct gm_user_system){0};
     gm_arena_keep(arena, &system_scene->system, gm_system_close);
     taking->maker->make(&taking->making);
-    gm_arena_drop(arena, &taking->making);
+    if (taking->making.problem.kind) { /* the maker of rooms opens none */
+        gm_arena_drop(arena, &taking->making);
+    }
 }
 
 /* Makes the scene of a system, which it takes; NULL with a sentence, and possibly a fault. */

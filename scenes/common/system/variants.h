@@ -21,8 +21,8 @@ struct gm_system_maker {
     /* Makes the scene, in a body of its arena. */
     void (*make)(struct gm_system_making *making);
 };
-/* Makers of motions, fields, and forms. */
-extern const struct gm_system_maker gm_system_motions, gm_system_fields, gm_system_forms;
+/* Makers of motions, fields, forms, and rooms; those read a text that was not read before (gm_room_unread). */
+extern const struct gm_system_maker gm_system_motions, gm_system_fields, gm_system_forms, gm_system_rooms;
 
 /* Fills what all scenes of files have: names, texts and rows. The title, blurb and time that are given are those of a
    file that has none. */
