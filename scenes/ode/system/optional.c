@@ -306,15 +306,20 @@ static const char *why_no_growth(const struct gm_view *view)
     return followed ? followed->why : NULL;
 }
 
+static double when_finite(double value)
+{
+    return isfinite(value) ? value : NAN;
+}
+
 static double log_volume(const struct gm_view *view)
 {
-    return values_of(view, GM_WORKED_VOLUME).log_volume;
+    return when_finite(values_of(view, GM_WORKED_VOLUME).log_volume);
 }
 
 static double volume_error(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return gm_expm1(values.log_volume - values.divergence);
+    return when_finite(gm_expm1(values.log_volume - values.divergence));
 }
 
 /* Writes the Lyapunov exponents in descending order, and returns their number; 0: not known. */
@@ -329,13 +334,13 @@ static double spectrum(const struct gm_view *view)
 {
     double exponents[GM_NEWTON_LARGEST];
     const size_t number = strtoul(view->observable->key + strlen("lyapunov"), NULL, 10);
-    return number <= exponents_of(view, exponents) ? exponents[number - 1] : NAN;
+    return number <= exponents_of(view, exponents) ? when_finite(exponents[number - 1]) : NAN;
 }
 
 static double lyapunov_sum(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return values.log_volume / values.time;
+    return when_finite(values.log_volume / values.time);
 }
 
 static double divergence_mean(const struct gm_view *view)
@@ -354,7 +359,7 @@ static double lyapunov_dimension(const struct gm_view *view)
     for (; k < count && sum + exponents[k] >= 0; k++) {
         sum += exponents[k];
     }
-    return count == 0 ? NAN : (double)k + (k < count ? sum / fabs(exponents[k]) : 0);
+    return count == 0 ? NAN : when_finite((double)k + (k < count ? sum / fabs(exponents[k]) : 0));
 }
 
 static const char *why_no_volume(const struct gm_view *view)
@@ -363,8 +368,10 @@ static const char *why_no_volume(const struct gm_view *view)
     if (!followed || followed->why) {
         return followed ? followed->why : NULL;
     }
-    return log_volume(view) == -INFINITY ? "a step of the scheme has the determinant 0"
-                                         : "the divergence of the equations is not known";
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return values.log_volume == -INFINITY ? "a step of the scheme has the determinant 0"
+           : isnan(values.divergence)     ? "the divergence of the equations is not known"
+                                          : "it is beyond the largest number: log_volume has its logarithm";
 }
 
 /* ---- the ring of members ---- */
