@@ -271,7 +271,7 @@ bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
         whole = NULL;
         fail(fault, "not enough memory");
     } else if (!gm_typed_check(whole, fault)) {
-        /* what a scene lacks of a word is told with its column in the word */
+        /* the sentence on what a scene lacks has the column in the word */
         const char *within = strstr(fault->sentence, "(column ");
         long column = 0;
         fault->at = (long)begin + (within && sscanf(within, "(column %ld)", &column) == 1 ? column - 1

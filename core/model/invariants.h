@@ -15,8 +15,8 @@ struct gm_found_invariant {
     bool proved;                       /* else tested at random points */
 };
 
-/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. Those that
-   the system has a name for are there whatever their degree, and if nothing was searched. */
+/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. The list has
+   all invariants with a name, whatever their degree, and even if nothing was searched. */
 struct gm_found_invariants {
     size_t degree;     /* largest degree that was searched */
     bool lowered;      /* a larger one was wanted; it has more than GM_MOST_CANDIDATES */

@@ -115,7 +115,8 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
 
 void gm_lane_judge(struct gm_lane *lane, size_t observable, double value)
 {
-    if (!isfinite(value) && lane->run->status == GM_OK && !gm_lane_missing(lane, observable)) {
+    if (!isfinite(value) && gm_scene_observable_at(lane->scene, observable)->kept &&
+        lane->run->status == GM_OK && !gm_lane_missing(lane, observable)) {
         lane->run->status = GM_BLOW_UP;
     }
 }

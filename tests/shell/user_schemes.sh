@@ -146,6 +146,8 @@ refused 1 'the word says that it is of the kind runge-kutta' certify 'runge-kutt
 refused 1 'the drifts sum to 0.3, not to 1' run kepler 'scheme=splitting(0.1, 0.2; 1)' until=1
 status 0 work-precision kepler scheme=best,rk4 until=2 --out .
 status 0 work-precision kepler scheme=rk4,best,rk2 until=2 --out .
+status 0 work-precision kepler 'scheme=projected(rk4; H, L),best' until=2 --out . # those of the family of rk4
+grep -q '^rk4 ' out || fail "the best of a projected scheme: $(cat out)"
 
 # a switch in flight to a word with commas, and again from the picture alone
 switched='0:5:scheme=composition(verlet; 1/2, 1/2),0:8:dt=0.02'
