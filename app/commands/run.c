@@ -96,6 +96,7 @@ static void observe(struct outcome *outcome)
     const unsigned long refusals = gm_memory_refusals();
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         outcome->values[i] = observe_told(outcome, i);
+        gm_lane_judge(lane, outcome->outputs->chosen.numbers[i], outcome->values[i]);
     }
     if (!outcome->interrupted) {
         gm_drive_warning(&outcome->drive, outcome->warning, sizeof outcome->warning);

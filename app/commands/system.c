@@ -1011,8 +1011,13 @@ static const char *symmetry_formula(struct report *report, const struct gm_symme
 static void print_found(struct report *report, const struct found *found)
 {
     const struct gm_found_invariants *invariants = &found->invariants;
-    printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
-           invariants->count, invariants->independent);
+    if (invariants->lacks) {
+        printf("invariants with a name: %zu; others are not searched: %s\n", invariants->count,
+               invariants->lacks);
+    } else {
+        printf("invariants up to degree %zu, proved: %zu, %zu of them independent\n", invariants->degree,
+               invariants->count, invariants->independent);
+    }
     if (invariants->lowered) {
         printf("degree %zu has more than %d candidates\n", invariants->degree + 1, GM_MOST_CANDIDATES);
     }
@@ -1021,13 +1026,20 @@ static void print_found(struct report *report, const struct found *found)
     }
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];
-        gm_print_wrapped(gm_arena_print(report->arena, "%s = %s (degree %zu)",
-                                        found_name(report, invariants, i),
-                                        written_out(report, invariant->node), invariant->degree),
+        const char *degree =
+            invariant->degree > 0
+                ? gm_arena_print(report->arena, "degree %zu", invariant->degree)
+                : gm_arena_print(report->arena, "%s%s", invariants->lacks ? "" : "of a higher degree, ",
+                                 certainty(invariant->proved ? GM_ZERO_PROVED : GM_ZERO_TESTED));
+        gm_print_wrapped(gm_arena_print(report->arena, "%s = %s (%s)", found_name(report, invariants, i),
+                                        written_out(report, invariant->node), degree),
                          printf("  "), 2);
     }
     if (invariants->unwritten > 0) {
         printf("  and %zu whose coefficients are not short fractions\n", invariants->unwritten);
+    }
+    if (invariants->lacks) {
+        return;
     }
     if (report->system.n > GM_MOST_WITH_SYMMETRIES) {
         printf("affine symmetries are found for up to %d components\n", GM_MOST_WITH_SYMMETRIES);
@@ -1049,14 +1061,17 @@ static void put_found(struct report *report, const struct found *found)
 {
     const struct gm_found_invariants *invariants = &found->invariants;
     struct gm_row row = gm_row_begin(stdout);
-    gm_row_put(&row, "degree %i, candidates %i, between_events %d", (int)invariants->degree,
-               (int)invariants->candidates, gm_system_item_of(&report->system, GM_WORD_EVENT, 0) != NULL);
+    gm_row_put(&row, "degree %i, candidates %i, not_searched %s, between_events %d", (int)invariants->degree,
+               (int)invariants->candidates, invariants->lacks,
+               gm_system_item_of(&report->system, GM_WORD_EVENT, 0) != NULL);
     struct gm_row list = gm_row_open(&row, "invariants_found", ']');
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
-        gm_row_put(&one, "formula %s, degree %i, proof %s, name %s", written_out(report, invariant->node),
-                   (int)invariant->degree, "exact", found_name(report, invariants, i));
+        gm_row_put(&one, "formula %s, degree %.17g, proof %s, name %s", written_out(report, invariant->node),
+                   invariant->degree > 0 ? (double)invariant->degree : NAN,
+                   invariant->proved ? "exact" : certainty(GM_ZERO_TESTED),
+                   found_name(report, invariants, i));
     }
     gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)invariants->unwritten,
                (int)invariants->independent);
@@ -1073,12 +1088,14 @@ static void put_found(struct report *report, const struct found *found)
 static int list_invariants(const struct gm_options *options, struct report *report)
 {
     const size_t usual = 4, degree = options->degree ? (size_t)options->degree : usual;
-    struct found found;
+    struct found found = {0};
     gm_invariants_find(&report->system, options->arena, degree, &found.invariants);
-    gm_command_end_if(options, found.invariants.lacks, GM_EXIT_USAGE,
+    gm_command_end_if(options, found.invariants.lacks && found.invariants.count == 0, GM_EXIT_USAGE,
                       "the invariants of this system are not searched: %s", found.invariants.lacks);
-    found.symmetry_count =
-        gm_symmetries_find(&report->system, options->arena, &found.symmetries, &found.symmetries_unwritten);
+    found.symmetry_count = found.invariants.lacks
+                               ? 0
+                               : gm_symmetries_find(&report->system, options->arena, &found.symmetries,
+                                                    &found.symmetries_unwritten);
     gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);
     return GM_EXIT_OK;

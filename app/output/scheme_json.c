@@ -100,7 +100,7 @@ void gm_certificate_put(FILE *stream, const struct gm_certificate *certificate, 
         }
         struct gm_row given_up = gm_row_open(&row, "given_up", ']');
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-            if ((scheme->base->claims & ~scheme->claims) >> bit & 1) {
+            if (gm_certificate_given_up(certificate) >> bit & 1) {
                 gm_row_text(&given_up, NULL, gm_claims[bit].key);
             }
         }

@@ -214,7 +214,8 @@ bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message
     return true;
 }
 
-/* Writes the scene's description of a failed step, `how`; returns false if it has none. */
+/* Writes the scene's description of a failed step, `how`, or of a run that has stopped, ""; returns false if it has
+   none. */
 static bool tell_part(const struct gm_lane *lane, const char *how, char *text, size_t size)
 {
     char part[GM_MESSAGE / 2] = "";
@@ -223,7 +224,8 @@ static bool tell_part(const struct gm_lane *lane, const char *how, char *text, s
         lane->scene->failure(&view, part, sizeof part);
     }
     if (part[0]) {
-        snprintf(text, size, "the step after t = %.6g %s: %s", view.t, how, part);
+        snprintf(text, size, *how ? "the step after t = %.6g %s: %s" : "the run ends at t = %.6g%s: %s",
+                 view.t, how, part);
     }
     return part[0] != '\0';
 }
@@ -303,12 +305,13 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     const struct gm_run *run = lane->run;
     const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
     text[0] = '\0';
-    const bool tangled = run->status == GM_MESH_CROSSING;
-    if ((!solved || tangled || run->status == GM_STEP_COLLAPSE) &&
+    const bool tangled = run->status == GM_MESH_CROSSING, ended = run->status == GM_OK && run->stopped;
+    if ((!solved || tangled || ended || run->status == GM_STEP_COLLAPSE) &&
         tell_part(lane,
-                  tangled  ? "would have tangled the mesh"
-                  : solved ? "was not found"
-                           : "failed",
+                  ended     ? ""
+                  : tangled ? "would have tangled the mesh"
+                  : solved  ? "was not found"
+                            : "failed",
                   text, size)) {
         return;
     }

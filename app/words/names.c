@@ -164,7 +164,7 @@ bool gm_chosen_follows_steps(const struct gm_chosen *chosen, const struct gm_sce
 {
     bool follows = false;
     for (size_t i = 0; i < chosen->count; i++) {
-        follows = follows || chosen->numbers[i] >= scene->observable_count;
+        follows = follows || gm_scene_observable_at(scene, chosen->numbers[i])->whole_steps;
     }
     return follows;
 }

@@ -3,6 +3,7 @@
 #include "app/words/request.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -270,7 +271,12 @@ bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
         whole = NULL;
         fail(fault, "not enough memory");
     } else if (!gm_typed_check(whole, fault)) {
-        fault->at = (long)begin + (fault->at < first ? 0 : fault->at - first);
+        /* the sentence on what a scene lacks has the column in the word */
+        const char *within = strstr(fault->sentence, "(column ");
+        long column = 0;
+        fault->at = (long)begin + (within && sscanf(within, "(column %ld)", &column) == 1 ? column - 1
+                                   : fault->at < first                                    ? 0
+                                                       : fault->at - first);
     }
     free(scheme);
     free(whole);

@@ -211,7 +211,8 @@ static bool need_vanishing(const struct search *search, struct gm_finding *findi
 }
 
 /* Tests the energy, or L with velocities for momenta: if L = T(v) - V(q), H separates as well, and the
-   transform of a quadratic T is quadratic. The time moves with q, so T may not hold it. */
+   transform of a quadratic T is quadratic. In a splitting the time moves with q, so its T may not hold it; the
+   Lagrangian of a quadratic T may. */
 static void find_split(const struct search *search)
 {
     struct gm_finding *separable = &search->findings[GM_FACT_SEPARABLE],
@@ -227,6 +228,8 @@ static void find_split(const struct search *search)
     const bool splits = need_vanishing(search, separable, energy, both, 2);
     if (!splits || !need_vanishing(search, separable, energy, moving, 2)) {
         separable->why = why[lagrangian][splits];
+    }
+    if (!splits) {
         deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
     } else if (!need_vanishing(search, nystrom, energy, thrice, 3)) {
         nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;

@@ -7,7 +7,7 @@
 
 enum gm_fact {
     GM_FACT_SEPARABLE,    /* H = T(p) + V(q) */
-    GM_FACT_NYSTROM,      /* separable, and T is quadratic */
+    GM_FACT_NYSTROM,      /* H = T(p, t) + V(q, t), and T is quadratic */
     GM_FACT_SECOND_ORDER, /* x' = v, v' = g(x, t), all x before all v */
     /* x' = v, v' = g + W v, W antisymmetric, or H = c |p - A|^2/2 + phi, in two or three dimensions */
     GM_FACT_MAGNETIC,

@@ -159,6 +159,7 @@ struct named {
     const struct gm_system_item *item; /* NULL: H */
     gm_node_id node;
     gm_residue *values; /* [points] */
+    bool reached;       /* a polynomial in the generators */
 };
 
 struct generator {
@@ -455,7 +456,6 @@ static void find_generators(struct search *search)
     }
     echelon_add(&all, ones);
     echelon_add(&reached, ones);
-    bool *used = gm_arena_take(arena, search->named_count + 1, sizeof *used);
     search->generators = gm_arena_take(arena, search->basis_count + 1, sizeof *search->generators);
     for (size_t degree = 1, first = 0, end = 0; degree <= search->degree; degree++, first = end) {
         for (; end < search->basis_count && degree_of(search, &search->basis[end]) == degree; end++) {
@@ -464,12 +464,12 @@ static void find_generators(struct search *search)
         memcpy(products[degree], ones, search->samples * sizeof *ones);
         add_products(search, &reached, 0, degree, products);
         for (size_t i = 0; i < search->named_count; i++) {
-            const gm_residue *values = search->named[i].values;
-            if (!used[i] && echelon_reduce(&all, values) == search->samples) {
-                used[i] = true;
-                if (echelon_add(&reached, values)) {
+            struct named *named = &search->named[i];
+            if (!named->reached && echelon_reduce(&all, named->values) == search->samples) {
+                named->reached = true;
+                if (echelon_add(&reached, named->values)) {
                     search->generators[search->generator_count++] =
-                        (struct generator){.degree = degree, .values = values, .named = &search->named[i]};
+                        (struct generator){.degree = degree, .values = named->values, .named = named};
                 }
             }
         }
@@ -543,30 +543,48 @@ static bool is_zero(struct search *search, gm_node_id node)
     return found == GM_ZERO_PROVED || found == GM_ZERO_TESTED;
 }
 
-/* Writes and proves the generators. Those without a gradient are constants: exp(x - y) exp(y - x). */
-static void write_generators(struct search *search, struct gm_found_invariants *found)
+/* Writes and proves the generators, then what has a name and was not reached. Those without a gradient are constants:
+   exp(x - y) exp(y - x). */
+static void write_all(struct search *search, struct gm_found_invariants *found)
 {
-    struct gm_formula *graph = &search->system->graph;
-    const size_t n = search->n;
-    gm_node_id *gradients = gm_arena_take(search->arena, search->generator_count * n + 1, sizeof *gradients);
-    found->list = gm_arena_take(search->arena, search->generator_count + 1, sizeof *found->list);
+    struct gm_user_system *system = search->system;
+    struct gm_formula *graph = &system->graph;
+    const size_t n = search->n, most = search->generator_count + search->named_count;
+    gm_node_id *gradients = gm_arena_take(search->arena, most * n + 1, sizeof *gradients);
+    found->list = gm_arena_take(search->arena, most + 1, sizeof *found->list);
     for (size_t g = 0; g < search->generator_count; g++) {
         const struct generator *generator = &search->generators[g];
         const struct named *named = generator->named;
         const gm_node_id node = named ? named->node : formula_of(search, generator->combined);
         gm_node_id *gradient = gradients + found->count * n;
-        if (node == GM_NO_NODE ||
-            !is_zero(search, gm_derivative_along(graph, node, search->system->rates, n))) {
+        if (node == GM_NO_NODE || !is_zero(search, gm_derivative_along(graph, node, system->rates, n))) {
             found->unwritten++;
             continue;
         }
         gm_arena_need(search->arena, gm_gradient(graph, node, NULL, n, gradient));
         if (rank_of(search, gradient, 1) == 1) {
             found->list[found->count++] = (struct gm_found_invariant){
-                named ? named->item : NULL, named && !named->item, node, generator->degree};
+                named ? named->item : NULL, named && !named->item, node, generator->degree, true};
         }
     }
-    found->independent = rank_of(search, gradients, found->count);
+    found->independent = found->lacks ? 0 : rank_of(search, gradients, found->count);
+    for (size_t i = 0; i < search->named_count; i++) {
+        const struct named *named = &search->named[i];
+        const enum gm_identity identity =
+            named->reached
+                ? GM_NOT_ZERO
+                : gm_equations_vanishes(system, gm_derivative_along(graph, named->node, system->rates, n));
+        if (identity != GM_ZERO_PROVED && identity != GM_ZERO_TESTED) {
+            continue;
+        }
+        gm_arena_need(search->arena, gm_gradient(graph, named->node, NULL, n, gradients + found->count * n));
+        const size_t rank = found->lacks ? 0 : rank_of(search, gradients, found->count + 1);
+        if (found->lacks || rank > found->independent) {
+            found->independent = rank;
+            found->list[found->count++] = (struct gm_found_invariant){named->item, !named->item, named->node,
+                                                                      0, identity == GM_ZERO_PROVED};
+        }
+    }
 }
 
 /* H, and the invariants that were declared. */
@@ -630,17 +648,16 @@ void gm_invariants_find(struct gm_user_system *system, struct gm_arena *arena, s
     }
     find_named(&search);
     list_candidates(&search);
-    if (!take_values(&search)) {
-        found->lacks = "the search finds no values of its roots";
-        return;
+    found->lacks = take_values(&search) ? NULL : "the search finds no values of its roots";
+    if (!found->lacks) {
+        solve(&search);
+        keep_independent(&search);
+        find_generators(&search);
+        found->degree = search.degree;
+        found->lowered = search.degree < degree;
+        found->candidates = search.count - 1;
     }
-    solve(&search);
-    keep_independent(&search);
-    find_generators(&search);
-    write_generators(&search, found);
-    found->degree = search.degree;
-    found->lowered = search.degree < degree;
-    found->candidates = search.count - 1;
+    write_all(&search, found);
 }
 
 const char *gm_found_word(const struct gm_user_system *system)

@@ -11,18 +11,21 @@ struct gm_found_invariant {
     const struct gm_system_item *item; /* the declared one; NULL: H, or found */
     bool energy;                       /* H */
     gm_node_id node;                   /* in the system's graph; what was found has whole coefficients */
-    size_t degree;                     /* in the components and in parts that are not polynomials */
+    size_t degree;                     /* in the components and in parts that are not polynomials; 0: above */
+    bool proved;                       /* else tested at random points */
 };
 
-/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. */
+/* No invariant of a list is a polynomial in the others; `independent` of them have independent gradients. The list has
+   all invariants with a name, whatever their degree, and even if nothing was searched. */
 struct gm_found_invariants {
     size_t degree;     /* largest degree that was searched */
     bool lowered;      /* a larger one was wanted; it has more than GM_MOST_CANDIDATES */
     size_t candidates; /* products of components and parts */
     struct gm_found_invariant *list;
     size_t count, independent;
-    size_t unwritten;  /* further invariants: their coefficients are not short fractions */
-    const char *lacks; /* the reason why nothing was searched, in words; NULL: it was */
+    size_t unwritten; /* further invariants: their coefficients are not short fractions */
+    const char
+        *lacks; /* the reason why nothing was searched, in words; NULL: it was. `independent` is then 0 */
 };
 
 /* Finds the polynomial invariants up to a degree, for the system's values of parameters. Inside a body of the arena,

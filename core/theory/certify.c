@@ -21,6 +21,17 @@ struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum
     return &certificate->claims[ffs((int)claim) - 1];
 }
 
+unsigned gm_certificate_given_up(const struct gm_certificate *certificate)
+{
+    const struct gm_scheme *scheme = certificate->scheme;
+    unsigned lost = scheme->base ? scheme->base->claims & ~scheme->claims : 0;
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        const struct gm_verdict *verdict = &certificate->claims[bit];
+        lost &= verdict->measured && verdict->defect <= verdict->tolerance ? ~(1u << bit) : ~0u;
+    }
+    return lost;
+}
+
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
 {
     struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);

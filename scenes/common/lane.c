@@ -113,6 +113,14 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
     return row->why ? row->why(&view) : row->missing;
 }
 
+void gm_lane_judge(struct gm_lane *lane, size_t observable, double value)
+{
+    if (!isfinite(value) && gm_scene_observable_at(lane->scene, observable)->kept &&
+        lane->run->status == GM_OK && !gm_lane_missing(lane, observable)) {
+        lane->run->status = GM_BLOW_UP;
+    }
+}
+
 bool gm_lane_measures(const struct gm_lane *lane, size_t observable)
 {
     return lane->problem.m > 1 || !gm_scene_observable_at(lane->scene, observable)->of_members;

@@ -62,6 +62,9 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 
 /* The reason why a computed observable is NaN; NULL without one. */
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
+/* Ends a good run as a blow-up if this value of an observable that the motion conserves is not finite, and has no reason
+   for that. */
+void gm_lane_judge(struct gm_lane *lane, size_t observable, double value);
 
 /* The number of the first observables on request that the lane's picture shows: they follow steps of one size. */
 size_t gm_lane_asked_shown(const struct gm_lane *lane);

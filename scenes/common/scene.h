@@ -73,6 +73,7 @@ struct gm_observable {
     double most;       /* a warning is due above it; 0: none */
     double period;     /* period of an angle, which is printed unwrapped; 0: none */
     bool recalls;      /* computed from the record of earlier steps */
+    bool whole_steps;  /* of a map of one step size: the last step of a run is not shortened for it */
     bool logarithmic;  /* drawn on a log axis */
     const char *group; /* a key that requests all observables that have it; NULL: none */
 };

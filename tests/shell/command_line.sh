@@ -542,6 +542,10 @@ for scheme in rk4 verlet gauss4 tao2 variational-newmark2 dopri5; do
     "$geomint" run disc scheme=$scheme dt=.3 until=1 --json >out || fail "run disc scheme=$scheme until=1"
     grep -q '"status":"ok","message":"","warning":"","t":1,.*"steps":4,' out || fail "another end: $(cat out)"
 done
+"$geomint" run kepler 'scheme=relaxed(rk4; H)' dt=.3 until=1 --measure relaxation,projection,I1_error --json >out || fail 'relaxed until=1'
+grep -q '"message":"","warning":"","t":1,' out || fail "a measured run that does not end at until: $(cat out)"
+"$geomint" run disc scheme=rk4 dt=.3 until=1 --measure lyapunov --json >out || fail 'whole steps'
+grep -q '"t":1.2,' out || fail "an exponent of steps of two sizes: $(cat out)"
 "$geomint" run disc scheme=rk4 dt=.3 steps=4 --json >out || fail 'run steps=4'
 grep -q '"t":1.2,' out || fail 'steps= makes no whole steps'
 "$geomint" run kepler scheme=rk4 dt=.3 until=1.05 --csv - >out || fail 'run --csv'

@@ -144,6 +144,13 @@ for words, order, holds, lost in (
         check(lost in certificate.get("given_up", []) and certificate["measured"][lost] > 1e-9, f"{words} gives up {lost}")
     symmetric = certificate.get("properties", {}).get("symmetric", {})
     check(symmetric.get("claimed") == ("symmetric: yes" in words[0]), f"{words} is symmetric")
+for word, scene, kept in (("projected(verlet; H; symmetric: yes)", "henon-heiles", "reversible"),
+                          ("projected(midpoint; H, angular_momentum; symmetric: yes)", "kepler", "keeps quadratic invariants"),
+                          ("relaxed(avf2; H)", "henon-heiles", "symmetric")):
+    certificate = json.loads(run("certify", word, "--on", scene, "--json").stdout)
+    check(kept not in certificate["given_up"] and certificate["measured"][kept] < 1e-12, f"{word} keeps: {kept}")
+check(json.loads(run("certify", "projected(verlet; H; symmetric: yes)", "--on", "henon-heiles", "--json").stdout)
+      ["properties"]["reversible"]["claimed"], "a symmetric projection onto H is reversible")
 
 # ---- the invariants that a system has, along a run of any scheme ----
 for scheme, verdicts in (("gauss4", ["oscillates", "conserved", "drifts", "oscillates"]), ("rk4", ["drifts"] * 4)):

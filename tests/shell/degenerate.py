@@ -143,6 +143,21 @@ def ends():
     lost = system("lost", "coordinates: x y\nL: -y^2/2*v_x + x\nstart: x = 0, y = 1\n")
     lane = run(lost, "scheme=rk4", "dt=0.03", "until=2")
     check(lane["stopped"] and abs(lane["t"] - .5) < .02, f"the run passes where the form is singular: {lane}")
+    check(lane["status"] == "ok" and "the run ends at t = 0.5" in lane["message"] and "the form of theta loses its rank near x = 0, y = " in lane["message"],
+          f"an end without a sentence: {lane['message']}")
+    # H has no value: at the start, where rates have one, or at the end
+    for name, words in (("lotka-volterra-L", ("x=-1", "until=.4")), ("lotka-volterra", ("x=-1", "until=.4")),
+                        ("system", ("H=p^2/2 + log(q)", "q=1", "p=-9", "dt=.5", "scheme=explicit-euler", "steps=1"))):
+        done = answer("run", name, *words, "--json")
+        lane = json.loads(done.stdout)
+        check(done.returncode == 2 and lane["status"] == "blow-up" and "log(" in lane["message"], f"no number and ok: {done.stdout}")
+    swept = answer("sweep", "lotka-volterra", "x=-1,1", "until=.4", "scheme=rk4").stdout
+    check(swept.count(",blow-up,") == 1 and swept.count(",ok,") == 1, f"a swept run without a number is ok: {swept}")
+    # exp(800), and a determinant that is 0
+    for rate, reason in (("x = 8*x", "beyond the largest number"), ("x = -10*x", "determinant 0")):
+        grown = json.loads(answer("run", "system", "rate=" + rate, "x=1e-300", "dt=.1", "steps=1000", "scheme=explicit-euler",
+                                  "--measure", "volume_error,log_volume", "--json").stdout)
+        check(all(value is None or math.isfinite(value) for value in grown["observables"].values()), f"{rate}: {grown}")
     for scheme in "degenerate-midpoint2", "midpoint":
         lane = run(lost, "scheme=" + scheme, "dt=0.03", "until=2")
         check("the form of theta loses its rank near x = 0, y = -0.00" in lane["message"], lane["message"])

@@ -285,6 +285,13 @@ keys Enter
 wait_for 'SCHEMES'
 keys q
 wait_for 'left 0'
+# a page that has no answer says why, without the prefix of the command line
+open duffing
+wait_for 'SCHEMES'
+keys V
+wait_for '^ *the invariants of this system are not searched'
+keys q
+wait_for 'left 0'
 
 [ "$failures" = 0 ] && echo "explorer, one's own: all passed"
 exit $((failures > 0))

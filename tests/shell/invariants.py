@@ -158,6 +158,19 @@ if named != ["H", "angular_momentum", "I1", "I2"]:
 lowered = json.loads(run("toda", "--invariants", "--json").stdout)
 if lowered["degree"] != 3 or "degree 4 has more than 3000 candidates" not in run("toda", "--invariants").stdout:
     fail("toda, five particles: the degree is not lowered, or not said to be")
+for system, degree, names in (("outer-planets", None, ["H", "momentum_x", "momentum_y", "momentum_z", "angular_momentum_x",
+                                                       "angular_momentum_y", "angular_momentum_z"]),
+                              ("lennard-jones", 1, ["momentum_x", "momentum_y", "H", "angular_momentum"]),
+                              ("argon", 2, ["momentum_x", "momentum_y", "angular_momentum", "I1", "H"])):
+    found = json.loads(run(system, "--invariants", "--json").stdout)
+    if [i["name"] for i in found["invariants_found"]] != names:
+        fail(f"{system}: {[i['name'] for i in found['invariants_found']]}, not {names}")
+    if (found["not_searched"] is None) != (degree is not None) or degree and (
+            found["degree"] != degree or found["invariants_independent"] != len(names) or found["invariants_found"][-1]["degree"]):
+        fail(f"{system}: {found['not_searched']}, degree {found['degree']}, {found['invariants_independent']} independent")
+wrong = run("system", "H=p^2/2+q^4", "q=1", "p=0", "invariant=E = p^2/2 + q^4 + 1e-9*q", "--invariants", "--degree", "1", "--json")
+if wrong.returncode == 0 and "E" in [i["name"] for i in json.loads(wrong.stdout)["invariants_found"]]:
+    fail(f"a declared invariant that is none: {wrong.stdout}")
 irrational = run("system", "H=(p1^2+w^2*q1^2)/2+(p2^2+4*w^2*q2^2)/2", "w=sqrt(2)", "q1=1", "q2=1", "p1=1", "p2=1",
                  "--degree", "3", "--invariants")
 if "and 3 whose coefficients are not short fractions" not in irrational.stdout:

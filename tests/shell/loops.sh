@@ -161,6 +161,8 @@ kept 1e-6 abc scheme=volume-splitting2 until=2000
 kept 1e-10 vortices scheme=midpoint until=2
 kept 1e-3 duffing scheme=gauss4 until=20
 kept 1e-10 henon-heiles scheme=variational-galerkin4 until=20
+kept 1e-9 outer-planets scheme=wisdom-holman2 steps=100
+kept 1e-9 figure-eight 'scheme=saba2(kepler, interaction)' steps=100
 status 0 run system 'rate=x = -x - y' 'rate=y = x - 2*y' x=1 y=0 dt=.1 until=3 scheme=explicit-euler --measure log_volume --json
 python3 -c '
 import json, math

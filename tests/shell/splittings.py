@@ -254,6 +254,18 @@ def bodies_move_in_jacobi_coordinates():
     energies = run(*bodies(p_y1=3, p_x1=2), "scheme=saba2(kepler, interaction)", "dt=.02", "steps=200", "--max")
     check(not isinstance(energies, str) and abs(energies[-1]["observables"]["energy_error_max"]) < 1e-4,
           f"a hyperbola: {energies}")
+    # a typed part that is Kepler's motion of a body, in a plane and in space, and what is none
+    for momenta, place, start in (("p_x^2+p_y^2+p_z^2", "x^2+y^2+z^2", ["x=1", "y=.2", "z=.3", "p_x=.1", "p_y=2", "p_z=.4"]),
+                                  ("p_x^2+p_y^2", "x^2+y^2", ["x=1", "y=.2", "p_x=.1", "p_y=2"])):
+        body = ["system", f"H=({momenta})/4-k/sqrt({place})+.05*x^2*y", f"part=A = ({momenta})/4-k/sqrt({place}), B = .05*x^2*y",
+                "k=3", "dt=.02", "steps=60", *start,
+                *(f"{word}={','.join(k + c for c in 'xyz' if c + '=' in ''.join(start))}" for word, k in (("coordinates", ""), ("momenta", "p_")))]
+        check(distance(state(*body, "scheme=strang(A, B)"), state(*body, "scheme=strang(A by gauss8, B)")) < 1e-12,
+              f"a typed part of Kepler's motion: {state(*body, 'scheme=strang(A, B)')}")
+    for part in ("(p_x^2+2*p_y^2)/4-3/sqrt(x^2+y^2)", "(p_x^2+p_y^2)/4-3/sqrt(x^2+y^2+1e-9)", "(p_x^2+p_y^2)/4+3/sqrt(x^2+y^2)",
+                 "(p_x^2+p_y^2)/4-3/(x^2+y^2)"):
+        refused = run("system", f"H={part}+x", f"part=A = {part}, B = x", "coordinates=x,y", "momenta=p_x,p_y", "x=1", "y=.2", "p_x=.1", "p_y=2", "steps=1", "scheme=strang(A, B)")
+        check(isinstance(refused, str) and "a known flow of A" in refused, f"{part} is none of Kepler's motions: {refused}")
     for k, scheme, told in ((-1, "saba2(kepler, interaction)", "it needs a part kepler"),
                             (1, "sabac2(kepler, interaction)", "for its corrector"),
                             (1, "saba2(kepler, potential)", "parts that sum to the rates"),

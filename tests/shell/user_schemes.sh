@@ -146,6 +146,8 @@ refused 1 'the word says that it is of the kind runge-kutta' certify 'runge-kutt
 refused 1 'the drifts sum to 0.3, not to 1' run kepler 'scheme=splitting(0.1, 0.2; 1)' until=1
 status 0 work-precision kepler scheme=best,rk4 until=2 --out .
 status 0 work-precision kepler scheme=rk4,best,rk2 until=2 --out .
+status 0 work-precision kepler 'scheme=projected(rk4; H, L),best' until=2 --out . # those of the family of rk4
+grep -q '^rk4 ' out || fail "the best of a projected scheme: $(cat out)"
 
 # a switch in flight to a word with commas, and again from the picture alone
 switched='0:5:scheme=composition(verlet; 1/2, 1/2),0:8:dt=0.02'
@@ -174,6 +176,7 @@ status 0 certify verlet --on system 'H=p^2/2 + abs(q)' q=1 p=0 dt=0.1 breaks=ign
 grep -q '"order":null,"order_reason":"the system is not smooth' out || fail "a rough system: $(cat out)"
 # few steps on one side of a corner decide nothing; those across it do, and what is not quadratic is not called so
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.1\nuntil: 20\n' >corner.system
+status 0 certify kahan2 --on system 'rate=x = -x*y + cos(t), y = x^2 - y' x=1 y=0.5 dt=.05 # its time is that of the middle
 status 0 certify avf2 --on ./corner.system breaks=ignored
 [ "$(grep -c 'not decided *the system is not smooth' out)" = 3 ] || fail "beside a corner: $(cat out)"
 ! grep -q holds out || fail "beside a corner: $(cat out)"

@@ -120,6 +120,10 @@ static void schemes(void **unused)
     assert_int_equal(fault.at, 0);
     assert_false(gm_typed_check_scheme("system H=p^2/2-cos(q) q=2 p=0\nstrang(kinetic, foo)", &fault));
     assert_non_null(strstr(fault.sentence, "it needs a part foo"));
+    assert_int_equal(fault.at, 16);
+    assert_false(gm_typed_check_scheme(
+        "system H=p^2/2-cos(q) q=2 p=0\n scheme='composition(strang(kinetic, foo); 1)'", &fault));
+    assert_int_equal(fault.at, 9 + 28);
     assert_true(
         gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &(const struct gm_scheme *){NULL}, &fault));
 }

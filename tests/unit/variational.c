@@ -45,6 +45,8 @@ static const char driven[] = "coordinates: q\nL: (1 + q^2)*v_q^2/2 + sin(t)*v_q 
 static const char pushed[] = "coordinates: a b\nL: (v_a^2 + (1 + a^2)*v_b^2)/2 - b^2\n"
                              "force: a = -0.25*p_a, b = -0.5*p_b - sin(a)\n"
                              "start: a = 0.5, b = 1, p_a = 0, p_b = 1\n";
+static const char shaken[] =
+    "coordinates: q\nH: (p_q - sin(t))^2/2 + cos(2*t)*q + q^4\nstart: q = 0.5, p_q = 1\n";
 static const char braked[] = "coordinates: a b\nparameter: c = 0.3\n"
                              "L: (v_a^2 + (1 + a^2)*v_b^2)/2 + cos(a) - b^2/2\n"
                              "force: a = -c*p_a, b = -c*p_b\nstart: a = 0.5, b = 0.6, p_a = 0.4, p_b = 0.3\n";
@@ -119,6 +121,7 @@ static void forces_and_time(void **unused)
     for (int i = 0; i < VARIATIONAL; i++) {
         certified(driven, variational[i], 0.04, NULL);
         certified(pushed, variational[i], 0.1, NULL);
+        certified(shaken, variational[i], 0.04, NULL);
     }
     static const char *const conformal[] = {"conformal-midpoint2", "conformal-trapezoidal2"};
     for (int i = 0; i < 2; i++) {

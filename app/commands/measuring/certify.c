@@ -31,7 +31,7 @@
 static void print_given_up(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
-    const unsigned lost = scheme->base ? scheme->base->claims & ~scheme->claims : 0;
+    const unsigned lost = gm_certificate_given_up(certificate);
     char text[512];
     if (lost) {
         printf("  given up: %s (of %s)\n", gm_catalogue_claims(lost, false, text, sizeof text),

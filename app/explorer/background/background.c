@@ -186,7 +186,9 @@ const char *gm_measure_text(const struct gm_measure *measure)
     if (measure->fd >= 0) {
         return NULL;
     }
-    return measure->text ? measure->text : "could not be measured";
+    static const char prefix[] = "geomint: "; /* of a refusal */
+    const char *text = measure->text ? measure->text : "could not be measured";
+    return text + (strncmp(text, prefix, sizeof prefix - 1) == 0 ? sizeof prefix - 1 : 0);
 }
 
 void gm_measure_close(struct gm_measure *measure)

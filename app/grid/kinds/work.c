@@ -162,17 +162,20 @@ static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
     line->credited = gm_arena_take(grid->arena, line->count, sizeof *line->credited);
 }
 
-/* The built-in schemes of the first one's family that promise the smallest error at equal cost: the smallest
+/* The built-in schemes of the first one's family, or of its base's, that promise the smallest error at equal cost: the smallest
    error constant by theory, of its order before those of other orders. */
 static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
 {
     enum { BEST = 3 };
-    const struct gm_scheme *like = grid->lines[0].scheme, *best[BEST] = {NULL};
+    const struct gm_scheme *first = grid->lines[0].scheme, *like = first, *best[BEST] = {NULL};
     double constants[BEST] = {0};
+    while (like->base) {
+        like = like->base;
+    }
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         const struct gm_scheme *same = gm_scheme_same_as(scheme, &lane->problem);
-        if (scheme->family != like->family || scheme == like || !gm_scheme_fits(scheme, &lane->problem) ||
+        if (scheme->family != like->family || scheme == first || !gm_scheme_fits(scheme, &lane->problem) ||
             (same && same->family == like->family)) {
             continue;
         }

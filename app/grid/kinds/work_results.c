@@ -323,34 +323,36 @@ static double covered(const struct gm_panel *panel, const struct drawn *line, co
     return steps;
 }
 
-/* The coloured lines of a panel, and the places of their names. */
+/* The lines of a panel, the coloured ones first, and the places of their names. */
 struct names {
     const struct gm_panel *panel;
-    struct drawn lines[NAMED];
+    struct drawn *lines;
     size_t line_count;
     struct place taken[NAMED];
     size_t taken_count;
 };
 
 /* The place for the name of a line, that covers least and touches no other name: beside one of its points, right
-   or left, above or below. */
+   or left, above or below, near or up to two lines of text away. */
 static struct place name_place(const struct names *names, const struct drawn *own, size_t letters)
 {
     const struct gm_panel *panel = names->panel;
     /* a letter, and a line of text, in a picture of usual size */
-    const double wide = 0.016 * (double)letters, tall = 0.042, aside = 0.012;
+    const double wide = 0.0135 * (double)letters, tall = 0.042, aside = 0.012;
+    enum { SIDES = 16 };
     struct place best = {0};
     double least = INFINITY;
     for (size_t k = 0; k < own->count; k++) {
         const double u = across(&panel->x, own->points[2 * k]);
         const double v = across(&panel->y, own->points[2 * k + 1]);
-        for (int side = 0; side < 4; side++) {
+        for (int side = 0; side < SIDES; side++) {
             const double left = side & 1 ? u - aside - wide : u + aside;
-            const double low = side & 2 ? v - 0.8 * tall : v - 0.2 * tall;
+            const double far = 0.5 * tall * (double)(side / 4);
+            const double low = side & 2 ? v - 0.8 * tall - far : v - 0.2 * tall + far;
             const struct place place = {left, low, left + wide, low + tall};
             /* later points are lower, and lines separate there */
             double cost = 0.2 * (double)side + 0.5 * (double)(own->count - k) / (double)own->count;
-            cost += place.left < 0 || place.right > 1 ? 40 : 0;
+            cost += place.left < 0 || place.right > 1 ? 400 : 0; /* what begins outside is not drawn */
             cost += place.low < 0 || place.high > 1.02 ? 40 : 0;
             for (size_t i = 0; i < names->taken_count; i++) {
                 const struct place *taken = &names->taken[i];
@@ -410,18 +412,25 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         panel->x.tick_count = grid->values.count;
     }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
-    for (size_t i = 0; i < grid->begun; i++) {
-        if (!holds(chosen, chosen_count, &grid->lines[i])) {
-            const size_t count = points_of(&grid->lines[i], cost, points);
-            gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.35, 1.1, GM_SOLID}, points, count,
-                         false);
+    struct drawn *lines = gm_picture_memory(picture, (chosen_count + grid->begun) * sizeof *lines);
+    struct names names = {.panel = panel, .lines = lines, .line_count = chosen_count};
+    for (size_t i = 0; i < chosen_count + grid->begun; i++) {
+        const struct gm_grid_line *line = i < chosen_count ? chosen[i] : &grid->lines[i - chosen_count];
+        if (i >= chosen_count && holds(chosen, chosen_count, line)) {
+            continue;
+        }
+        double *own = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *own);
+        const struct drawn drawn = {own, points_of(line, cost, own)};
+        if (i < chosen_count) {
+            lines[i] = drawn;
+        } else {
+            lines[names.line_count++] = drawn;
+            gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.35, 1.1, GM_SOLID}, own,
+                         drawn.count, false);
         }
     }
-    struct names names = {.panel = panel, .line_count = chosen_count};
-    struct drawn *lines = names.lines;
     for (size_t i = 0; i < chosen_count; i++) {
-        double *own = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *own);
-        lines[i] = (struct drawn){own, points_of(chosen[i], cost, own)};
+        const double *own = lines[i].points;
         const struct gm_style style = gm_chart_style(i);
         gm_mark_line(picture, panel, style, own, lines[i].count, false);
         gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, own, lines[i].count);

@@ -542,6 +542,7 @@ static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_r
     double *values = interrupted ? NULL : malloc((sweep->chosen.count + 1) * sizeof *values);
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
+        gm_lane_judge(drive.lane, sweep->chosen.numbers[i], values[i]);
     }
     struct gm_text_stream line = {0}, rows = {0};
     if (!status) {

@@ -135,14 +135,18 @@ static void remove_part(const double *u, double *v, size_t n, size_t size)
     }
 }
 
-/* Makes the vectors orthonormal, one after the other, each twice against round-off, and adds the logarithms of what
-   is left of their lengths. Returns the first of these lengths. */
+/* Makes the vectors orthonormal in the units of the components, one after the other, each twice against round-off,
+   and adds the logarithms of what is left of their lengths. Returns the first of these lengths. */
 static double orthonormalise(const struct gm_growth *growth)
 {
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
+    const double *units = gm_tangent_units(growth->tangent);
     double first = 0;
     for (size_t k = 0; k < growth->vectors; k++) {
         double *v = growth->v + k * size, square = 0;
+        for (size_t c = 0; c < n; c++) {
+            v[c] /= units[c];
+        }
         for (size_t i = 0; i < 2 * k; i++) {
             remove_part(growth->v + i % k * size, v, n, size);
         }
@@ -154,6 +158,9 @@ static double orthonormalise(const struct gm_growth *growth)
         }
         growth->logarithms[k] += gm_log(square) / 2;
         first = k == 0 ? sqrt(square) : first;
+    }
+    for (size_t i = 0; i < growth->vectors * size; i++) {
+        growth->v[i] *= i % size < n ? units[i % size] : 1;
     }
     return first;
 }
@@ -175,7 +182,7 @@ bool gm_growth_follow_all(struct gm_growth *growth)
     growth->vectors = n;
     growth->jacobian = growth->logarithms + n;
     for (size_t k = 0; k < n; k++) {
-        v[k * size + k] = 1;
+        v[k * size + k] = gm_tangent_units(growth->tangent)[k];
         growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, v + k * size);
     }
     return true;
@@ -198,9 +205,7 @@ static double log_volume_of(const struct gm_growth *growth)
     for (size_t k = 0; growth->logarithms && k < growth->vectors; k++) {
         sum += growth->logarithms[k];
     }
-    /* bodies' momenta and places have scales too far apart for differences */
-    const bool far = gm_ode_of(&growth->problem)->gravity && !gm_scheme_has_coefficients(growth->run->scheme);
-    return far ? NAN : sum;
+    return sum;
 }
 
 /* Makes a step with all vectors, and fills what it made of the first one. Returns the number of steps made. */

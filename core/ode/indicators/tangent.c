@@ -25,6 +25,7 @@ struct gm_tangent {
     struct gm_run *probe;            /* a second run for differences; NULL: not needed yet */
     double h;                        /* the length of the step or part */
     size_t n, memory;
+    double *units;         /* n, see gm_tangent_units */
     size_t stages;         /* number of stages; 0: differences only */
     double *a[GM_SIDES];   /* stages * stages by rows */
     double *b[GM_SIDES];   /* stages */
@@ -175,6 +176,23 @@ static void take(struct gm_tangent *tangent, const struct gm_problem *motion)
     }
 }
 
+static void find_units(const struct gm_tangent *tangent)
+{
+    const struct gm_gravity *gravity = gm_ode_of(tangent->motion)->gravity;
+    for (size_t c = 0; c < tangent->n; c++) {
+        tangent->units[c] = 1;
+    }
+    for (size_t i = 0, half = tangent->n / 2; gravity && i < half; i++) {
+        tangent->units[half + gravity->places[i]] =
+            gravity->masses[i / gravity->dimensions] / fabs(tangent->run->dt);
+    }
+}
+
+const double *gm_tangent_units(const struct gm_tangent *tangent)
+{
+    return tangent->units;
+}
+
 struct opening {
     struct gm_run *run;
     struct gm_tangent *tangent;
@@ -191,6 +209,8 @@ static void open_all(struct gm_arena *arena, void *data)
     tangent->run = run;
     take(tangent, run->problem);
     tangent->n = run->problem->n;
+    tangent->units = doubles(tangent, tangent->n);
+    find_units(tangent);
     tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
     const size_t size = gm_tangent_size(tangent);
     tangent->before = doubles(tangent, size);
@@ -240,11 +260,11 @@ static double distance(const struct gm_tangent *tangent, const double *v)
 {
     double largest = 1e-3, most = 0;
     for (size_t c = 0; c < tangent->n; c++) {
-        largest = fmax(largest, fabs(tangent->before[c]));
+        largest = fmax(largest, fabs(tangent->before[c] / tangent->units[c]));
     }
     for (size_t i = 0; i < gm_tangent_size(tangent); i++) {
         const double least = 1e-2 * largest, own = fmax(fabs(tangent->before[i]), least);
-        most = fmax(most, fabs(v[i]) / (i < tangent->n ? largest : own));
+        most = fmax(most, fabs(v[i]) / (i < tangent->n ? largest * tangent->units[i] : own));
     }
     return 4e-4 / most;
 }

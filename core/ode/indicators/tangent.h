@@ -23,6 +23,10 @@ void gm_tangent_close(void *tangent);
 /* Returns the length of a vector: the state and the scheme's memory. */
 size_t gm_tangent_size(const struct gm_tangent *tangent);
 
+/* Returns the units of the state's components, in which its numbers are of similar size: 1, but for the momenta of
+   bodies that attract each other: there the mass over the time step. */
+const double *gm_tangent_units(const struct gm_tangent *tangent);
+
 /* Completes v, whose part of the state is given, by the derivative of the scheme's initial memory. The run is
    at its start. Returns false if the run cannot start, or when out of memory. */
 bool gm_tangent_begin(struct gm_tangent *tangent, double *v);

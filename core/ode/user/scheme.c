@@ -841,6 +841,10 @@ static struct own *make_holding(const struct making *making)
     for (size_t i = 0; i < holding->count; i++) {
         self->row.claims |= strcmp(holding->names[i], "H") == 0 ? GM_KEEPS_ENERGY : 0;
     }
+    /* what is reversible has an even energy; other invariants may have parts of both kinds */
+    self->row.claims |= holding->symmetric && holding->count == 1 && self->row.claims & GM_KEEPS_ENERGY
+                            ? base->claims & GM_REVERSIBLE
+                            : 0;
     holding->count = holding->constraints ? 0 : holding->count;
     return self;
 }

@@ -5,7 +5,7 @@
 
 #include "core/ode/ode.h"
 
-/* Returns true if the problem has a Lagrangian, or H = T(p) + V(q) with a quadratic T,
+/* Returns true if the problem has a Lagrangian, or H = T(p, t) + V(q, t) with a quadratic T,
    L = p v - H, v = A p + b, p = A^-1 (v - b). */
 bool gm_has_action(const struct gm_problem *problem);
 

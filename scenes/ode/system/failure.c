@@ -223,6 +223,28 @@ static bool goes_on(const struct gm_view *view, const double *states)
     return within;
 }
 
+/* Writes that the run has ended where the form of theta loses its rank, if it has. */
+static void tell_stop(const struct failed *failed)
+{
+    const struct gm_user_system *system = &failed->scene->system;
+    const struct gm_system_item *stop = gm_system_item_of(system, GM_WORD_STOP, 0);
+    if (system->theta && stop && stop->nodes[0] == system->pfaffian) {
+        snprintf(failed->text, failed->size, "the form of theta loses its rank near ");
+        tell_components(failed, failed->view->state, 0, system->n, 4);
+    }
+}
+
+/* Writes a part of H, or of a rate, that is not finite now, else at the start, where steps may not need it. */
+static bool tell_energy(const struct failed *failed)
+{
+    const size_t m = failed->view->problem->m;
+    bool told = false;
+    for (size_t k = 0; k < 2 * m && !told && failed->scene->system.kind != GM_LAGRANGIAN; k++) {
+        told = tell_part(failed, k < m ? failed->view->state : failed->view->start, k % m);
+    }
+    return told;
+}
+
 /* Looks ahead, as stages do: along the slope, then along the motion, which may bend elsewhere, over two
    steps, since stages overshoot. The search ends at the run's limit, which ends the run by itself. */
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
@@ -233,13 +255,15 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     const size_t total = problem->n * problem->m;
     double *slope = malloc(3 * total * sizeof *slope);
     text[0] = '\0';
-    if (!slope) {
+    if (!slope || view->run->stopped) {
+        tell_stop(&failed);
+        free(slope);
         return;
     }
     double *const ahead = slope + total, *const there = ahead + total;
     gm_field(problem, view->state, slope, problem->m);
     memcpy(ahead, view->state, total * sizeof *ahead);
-    bool within = !tell_states(&failed, ahead, slope);
+    bool within = !tell_states(&failed, ahead, slope) && !tell_energy(&failed);
     for (int part = 1; part <= 3 * COARSE && within; part++) {
         const bool from_here = part <= COARSE + 1;
         const double h = view->dt * (part <= COARSE ? part : 1) / COARSE;

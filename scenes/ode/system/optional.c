@@ -306,15 +306,20 @@ static const char *why_no_growth(const struct gm_view *view)
     return followed ? followed->why : NULL;
 }
 
+static double when_finite(double value)
+{
+    return isfinite(value) ? value : NAN;
+}
+
 static double log_volume(const struct gm_view *view)
 {
-    return values_of(view, GM_WORKED_VOLUME).log_volume;
+    return when_finite(values_of(view, GM_WORKED_VOLUME).log_volume);
 }
 
 static double volume_error(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return gm_expm1(values.log_volume - values.divergence);
+    return when_finite(gm_expm1(values.log_volume - values.divergence));
 }
 
 /* Writes the Lyapunov exponents in descending order, and returns their number; 0: not known. */
@@ -329,13 +334,13 @@ static double spectrum(const struct gm_view *view)
 {
     double exponents[GM_NEWTON_LARGEST];
     const size_t number = strtoul(view->observable->key + strlen("lyapunov"), NULL, 10);
-    return number <= exponents_of(view, exponents) ? exponents[number - 1] : NAN;
+    return number <= exponents_of(view, exponents) ? when_finite(exponents[number - 1]) : NAN;
 }
 
 static double lyapunov_sum(const struct gm_view *view)
 {
     const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
-    return values.log_volume / values.time;
+    return when_finite(values.log_volume / values.time);
 }
 
 static double divergence_mean(const struct gm_view *view)
@@ -354,7 +359,7 @@ static double lyapunov_dimension(const struct gm_view *view)
     for (; k < count && sum + exponents[k] >= 0; k++) {
         sum += exponents[k];
     }
-    return count == 0 ? NAN : (double)k + (k < count ? sum / fabs(exponents[k]) : 0);
+    return count == 0 ? NAN : when_finite((double)k + (k < count ? sum / fabs(exponents[k]) : 0));
 }
 
 static const char *why_no_volume(const struct gm_view *view)
@@ -363,8 +368,10 @@ static const char *why_no_volume(const struct gm_view *view)
     if (!followed || followed->why) {
         return followed ? followed->why : NULL;
     }
-    return log_volume(view) == -INFINITY ? "a step of the scheme has the determinant 0"
-                                         : "the divergence of the equations is not known";
+    const struct gm_growth_values values = values_of(view, GM_WORKED_VOLUME);
+    return values.log_volume == -INFINITY ? "a step of the scheme has the determinant 0"
+           : isnan(values.divergence)     ? "the divergence of the equations is not known"
+                                          : "it is beyond the largest number: log_volume has its logarithm";
 }
 
 /* ---- the ring of members ---- */
@@ -542,42 +549,46 @@ static const char *why_not_found(const struct gm_view *view)
     {                                                                                                        \
         .key = "modified_energy" #power "_error", .unit = "", .evaluate = modified_error,                    \
         .title = "error of the modified energy, up to Δt" powers, .logarithmic = true,                       \
-        .why = why_no_modified                                                                               \
+        .why = why_no_modified, .whole_steps = true                                                          \
     }
-#define INDICATOR(name, function, reason, words)                                                             \
+#define INDICATOR(name, function, reason, of_steps, words)                                                   \
     {                                                                                                        \
-        .key = name, .title = words, .unit = "", .evaluate = function, .why = reason                         \
+        .key = name, .title = words, .unit = "", .evaluate = function, .why = reason,                        \
+        .whole_steps = of_steps                                                                              \
     }
 
 const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
     MODIFIED(2, "²"),
     MODIFIED(4, "⁴"),
     MODIFIED(6, "⁶"),
-    INDICATOR("lyapunov", growth, why_no_growth, "largest Lyapunov exponent"),
-    INDICATOR("lyapunov_change", growth, why_no_growth, "change of the exponent over the last half"),
-    INDICATOR("megno", growth, why_no_growth, "mean MEGNO"),
-    INDICATOR("megno_change", growth, why_no_growth, "change of MEGNO over the last half"),
+    INDICATOR("lyapunov", growth, why_no_growth, true, "largest Lyapunov exponent"),
+    INDICATOR("lyapunov_change", growth, why_no_growth, true, "change of the exponent over the last half"),
+    INDICATOR("megno", growth, why_no_growth, true, "mean MEGNO"),
+    INDICATOR("megno_change", growth, why_no_growth, true, "change of MEGNO over the last half"),
     {.key = "return_time",
      .title = "time until the section is passed again",
      .unit = "",
      .evaluate = return_time,
      .recalls = true,
      .why = why_no_return},
-    INDICATOR("escape_time", escape_time, why_no_escape, "time until the orbit has left"),
-    INDICATOR("projection", correction, why_no_correction, "length of the last move back to the invariants"),
-    INDICATOR("relaxation", correction, why_no_correction, "length of the last step beside Δt, −1"),
-    INDICATOR("volume_error", volume_error, why_no_volume, "error of the volume against exp(∫ div f dt)"),
-    INDICATOR("log_volume", log_volume, why_no_volume, "ln of the volume that the steps make of 1"),
-    INDICATOR("loop_action", loop_action, gm_ring_why, "sum of ∮ p dq along the ring of members"),
-    INDICATOR("loop_action_error", loop_action_error, why_no_loop_error,
+    INDICATOR("escape_time", escape_time, why_no_escape, false, "time until the orbit has left"),
+    INDICATOR("projection", correction, why_no_correction, false,
+              "length of the last move back to the invariants"),
+    INDICATOR("relaxation", correction, why_no_correction, false, "length of the last step beside Δt, −1"),
+    INDICATOR("volume_error", volume_error, why_no_volume, true,
+              "error of the volume against exp(∫ div f dt)"),
+    INDICATOR("log_volume", log_volume, why_no_volume, true, "ln of the volume that the steps make of 1"),
+    INDICATOR("loop_action", loop_action, gm_ring_why, false, "sum of ∮ p dq along the ring of members"),
+    INDICATOR("loop_action_error", loop_action_error, why_no_loop_error, false,
               "relative error of the loop's action"),
-    INDICATOR("loop_resolution", loop_resolution, gm_ring_why, "share of short waves in the loop's action"),
+    INDICATOR("loop_resolution", loop_resolution, gm_ring_why, false,
+              "share of short waves in the loop's action"),
 };
 
 static const struct gm_observable spectrum_rows[] = {
-    INDICATOR("lyapunov_sum", lyapunov_sum, why_no_volume, "sum of the Lyapunov exponents"),
-    INDICATOR("divergence_mean", divergence_mean, why_no_volume, "mean of div f"),
-    INDICATOR("lyapunov_dimension", lyapunov_dimension, why_no_volume, "dimension of Kaplan and Yorke"),
+    INDICATOR("lyapunov_sum", lyapunov_sum, why_no_volume, true, "sum of the Lyapunov exponents"),
+    INDICATOR("divergence_mean", divergence_mean, why_no_volume, true, "mean of div f"),
+    INDICATOR("lyapunov_dimension", lyapunov_dimension, why_no_volume, true, "dimension of Kaplan and Yorke"),
 };
 
 void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_observable *rows,
@@ -593,7 +604,7 @@ void gm_ode_ask(struct gm_arena *arena, struct gm_scene *scene, const struct gm_
         *row = k >= exponents
                    ? spectrum_rows[k - exponents]
                    : (struct gm_observable)INDICATOR(gm_arena_print(arena, "lyapunov%zu", k + 1), spectrum,
-                                                     why_no_volume,
+                                                     why_no_volume, true,
                                                      gm_arena_print(arena, "Lyapunov exponent %zu", k + 1));
         row->group = "lyapunov_spectrum";
     }

@@ -12,6 +12,7 @@
 
 #include <stdio.h>
 
+#include "core/expression/identity.h"
 #include "core/expression/nearest.h"
 #include "core/expression/reader.h"
 #include "core/functions/functions.h"
@@ -53,6 +54,7 @@ struct part {
     bool timed; /* it holds the time */
     struct gm_linear_flow flow;
     struct gm_tape tape;
+    double inverse_mass, mu; /* KEPLER: of q' = inverse_mass p, q'' = -mu q/|q|^3 */
     /* KICK: the force on the momenta */
     void (*force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
     /* STEPS: the scheme, with the part as its problem */
@@ -188,13 +190,66 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
     return rates;
 }
 
+/* Returns true if a node is a constant of all states. */
+static bool is_constant(struct work *work, gm_node_id node)
+{
+    const size_t n = work->problem->n;
+    gm_node_id *gradient = gm_arena_take(work->arena, n, sizeof *gradient);
+    bool constant = gm_gradient(&work->graph, node, NULL, n, gradient);
+    for (size_t c = 0; c < n && constant; c++) {
+        const enum gm_identity identity = gm_identity_of(&work->graph, gradient[c], NULL, 0);
+        constant = identity == GM_ZERO_PROVED || identity == GM_ZERO_TESTED;
+    }
+    return constant;
+}
+
+/* Returns true if the rates are those of |p|^2/(2m) - k/|q| of one body in a plane or in space, with k > 0, and takes
+   1/m and k/m: q_i'/p_i and p_i' |q|^3/q_i are the same constants for all i. */
+static bool find_kepler(struct work *work, struct part *part, const gm_node_id *rates)
+{
+    const size_t n = work->problem->n, half = n / 2;
+    struct gm_formula *graph = &work->graph;
+    double y[6] = {0.3, 0.5, 0.7, 0.9, 1.1, 1.3}, at[6];
+    gm_node_id square = gm_formula_constant(graph, 0), ratios[6];
+    if (n != 4 && n != 6) {
+        return false;
+    }
+    for (size_t i = 0; i < half; i++) {
+        const gm_node_id q = gm_formula_variable(graph, i);
+        square = gm_sum(graph, square, gm_product(graph, q, q));
+    }
+    const gm_node_id cube =
+        gm_product(graph, square, gm_simplified(graph, GM_OPERATION_SQRT, square, square));
+    bool found = true;
+    for (size_t i = 0; i < n && found; i++) {
+        const gm_node_id above = i < half ? rates[i] : gm_product(graph, rates[i], cube);
+        ratios[i] =
+            gm_simplified(graph, GM_OPERATION_DIVIDE, above, gm_formula_variable(graph, (i + half) % n));
+        found = is_constant(work, ratios[i]);
+    }
+    gm_arena_need(work->arena, !graph->failed);
+    double *values = gm_arena_take(work->arena, graph->count, sizeof *values);
+    gm_formula_evaluate(graph, graph->count, y, values);
+    for (size_t i = 0; i < n && found; i++) {
+        at[i] = values[ratios[i]];
+        found = fabs(at[i] - at[i / half * half]) <= 1e-14 * fabs(at[i]);
+    }
+    part->inverse_mass = found ? at[0] : 0;
+    part->mu = found ? -at[0] * at[half] : 0;
+    return part->mu > 0;
+}
+
 static void open_formula(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
 {
     const size_t n = work->problem->n;
     if (!gm_linear_flow_derive(work->arena, &part->flow, &work->graph, rates, n, n)) {
+        if (find_kepler(work, part, rates)) {
+            part->how = KEPLER;
+            return;
+        }
         gm_arena_refuse(
             work->arena,
-            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor the structure's own kepler: "
+            "a known flow of %.40s%s, which is neither a drift, a kick, linear nor Kepler's motion of a body: "
             "write %.40s by gauss4",
             name, column_of(work, name), name);
     }
@@ -222,7 +277,7 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
     const bool given = named->by || is_given(ode->parts, name);
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
-        part->how = KEPLER;
+        *part = (struct part){.how = KEPLER, .inverse_mass = 1, .mu = 1};
     } else if (!given && ode->gravity && (strcmp(name, "kepler") == 0 || strcmp(name, "interaction") == 0)) {
         part->how = name[0] == 'k' ? JACOBI_KEPLER : JACOBI_KICK;
     } else if (!given && ode->kepler_split && strcmp(name, "interaction") == 0) {
@@ -504,7 +559,16 @@ static bool advance_member(const struct gm_task *task, struct work *work, size_t
     const bool known = shear && first && work->known && memcmp(work->kept, y, n * sizeof *y) == 0;
     switch (part->how) {
     case KEPLER:
-        return gm_kepler_flow(2, 1, h, y, y + 2);
+        for (size_t i = half; i < n; i++) {
+            y[i] *= part->inverse_mass;
+        }
+        if (!gm_kepler_flow(half, part->mu, h, y, y + half)) {
+            return false;
+        }
+        for (size_t i = half; i < n; i++) {
+            y[i] /= part->inverse_mass;
+        }
+        return true;
     case JACOBI_KEPLER:
         return gm_jacobi_kepler(gm_ode_of(problem)->gravity, h, y);
     case BRACKET:
