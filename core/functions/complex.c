@@ -2,9 +2,32 @@
 #include "core/functions/complex.h"
 
 #include <complex.h>
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 #include "core/functions/functions.h"
+
+/* (a + i b) / (c + i d) for |c| >= |d|. The quotient d/c may vanish where b d/c does not. */
+static double complex quotient(double a, double b, double c, double d)
+{
+    const double ratio = d / c, below = c + d * ratio;
+    const bool good = fabs(ratio) > DBL_MIN;
+    return CMPLX((good ? a + b * ratio : a + d * (b / c)) / below,
+                 (good ? b - a * ratio : b - d * (a / c)) / below);
+}
+
+double complex gm_cdivide(double complex x, double complex y)
+{
+    const double large = DBL_MAX / 2, small = DBL_EPSILON, most = large * small;
+    double a = creal(x), b = cimag(x), c = creal(y), d = cimag(y);
+    const double size = fmax(fabs(c), fabs(d)), halved = size >= large ? .5 : 1;
+    a *= halved, b *= halved, c *= halved, d *= halved;
+    const bool tiny = (fabs(a) < DBL_MIN && fabs(b) < most) || (fabs(b) < DBL_MIN && fabs(a) < most);
+    const double grown = size < small || (tiny && size < most) ? 1 / small : 1;
+    a *= grown, b *= grown, c *= grown, d *= grown;
+    return fabs(c) < fabs(d) ? quotient(b, -a, d, -c) : quotient(a, b, c, d);
+}
 
 double gm_cabs(double complex z)
 {

@@ -3,6 +3,9 @@
 #ifndef GM_CORE_FUNCTIONS_COMPLEX_H
 #define GM_CORE_FUNCTIONS_COMPLEX_H
 
+/* a / b, which compilers leave to libraries of their own, each with other last digits. These are those of GCC since
+   version 12, but where the quotient is not finite. M. Baudin & R. L. Smith, arXiv:1210.4539. */
+double _Complex gm_cdivide(double _Complex a, double _Complex b);
 double gm_cabs(double _Complex z);
 double gm_carg(double _Complex z);
 double _Complex gm_cexp(double _Complex z);

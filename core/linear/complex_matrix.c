@@ -15,6 +15,7 @@ enum { SIZE = GM_COMPLEX_LARGEST * GM_COMPLEX_LARGEST, TERMS = 20 };
 static const double factorials[GM_PHI_MOST] = {1, 1, 2, 6};
 
 #define ENTRY double complex
+#define DIVIDE gm_cdivide
 #define MAGNITUDE gm_cabs
 #define ELIMINATE eliminate_columns
 #include "core/functions/complex.h"
@@ -102,7 +103,7 @@ void gm_complex_phi(size_t n, const double complex *z, size_t count, double comp
     if (n == 1 && norm >= 1) {
         phi[0] = gm_cexp(z[0]);
         for (size_t k = 1; k < count; k++) {
-            phi[k] = (phi[k - 1] - 1 / factorials[k - 1]) / z[0];
+            phi[k] = gm_cdivide(phi[k - 1] - 1 / factorials[k - 1], z[0]);
         }
         return;
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gaussian elimination with partial pivoting: of real numbers in core/linear/iteration.h, of complex ones in
    core/linear/complex_matrix.c. They include this file with ENTRY, the type of an entry, MAGNITUDE, its absolute
-   value, and ELIMINATE, the name of the function. The loops over kernels include it too. */
+   value, DIVIDE(a, b), and ELIMINATE, the name of the function. The loops over kernels include it too. */
 
 /* Solves a x = r for `columns` right sides, a an n * n matrix by rows. Each x overwrites its r; a becomes the upper
    triangle of the elimination. Returns false if a is singular. */
@@ -33,7 +33,7 @@ static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, ENTRY *res
         }
         for (size_t i = k + 1; i < n; i++) {
             ENTRY *restrict row = a + i * n;
-            const ENTRY *top = a + k * n, factor = row[k] / top[k];
+            const ENTRY *top = a + k * n, factor = DIVIDE(row[k], top[k]);
             for (size_t j = k + 1; j < n; j++) {
                 row[j] -= factor * top[j];
             }
@@ -48,12 +48,13 @@ static inline __attribute__((always_inline)) bool ELIMINATE(size_t n, ENTRY *res
             for (size_t j = k + 1; j < n; j++) {
                 sum -= a[k * n + j] * r[c * n + j];
             }
-            r[c * n + k] = sum / a[k * n + k];
+            r[c * n + k] = DIVIDE(sum, a[k * n + k]);
         }
     }
     return true;
 }
 
 #undef ENTRY
+#undef DIVIDE
 #undef MAGNITUDE
 #undef ELIMINATE

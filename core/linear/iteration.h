@@ -13,6 +13,7 @@
 #include "core/problem.h"
 
 #define ENTRY double
+#define DIVIDE(a, b) ((a) / (b))
 #define MAGNITUDE fabs
 #define ELIMINATE gm_eliminate_columns
 #include "core/linear/eliminate.loop.h"

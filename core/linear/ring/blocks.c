@@ -40,7 +40,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
             return false;
         }
         for (size_t i = 0; i < n; i++) {
-            const double complex factor = i == p ? 0 : a[i][p] / a[p][p];
+            const double complex factor = i == p ? 0 : gm_cdivide(a[i][p], a[p][p]);
             for (size_t j = p; j < n; j++) {
                 a[i][j] -= factor * a[p][j];
             }
@@ -51,7 +51,7 @@ static bool solve(double complex a[MOST][MOST], double complex b[MOST][MOST], si
     }
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < columns; j++) {
-            b[i][j] /= a[i][i];
+            b[i][j] = gm_cdivide(b[i][j], a[i][i]);
         }
     }
     return true;
@@ -137,10 +137,10 @@ bool gm_ring_blocks_make(struct gm_ring_blocks *blocks, size_t count, size_t n, 
         root->value = real[k] + I * imaginary[k];
         root->real = imaginary[k] == 0;
         const bool inside = gm_cabs(root->value) < 1;
-        const double complex damped = inside ? root->value : 1 / root->value;
+        const double complex damped = inside ? root->value : gm_cdivide(1, root->value);
         const double needed = -42 / gm_log(gm_cabs(damped)); /* e^-42 = 6e-19 */
         root->reach = needed < (double)count ? (size_t)needed + 1 : count;
-        root->closed = root->reach == count ? 1 / (1 - gm_cpow(damped, (double)count)) : 1;
+        root->closed = root->reach == count ? gm_cdivide(1, 1 - gm_cpow(damped, (double)count)) : 1;
         if (!(gm_cabs(root->closed) < 1e4)) {
             return false;
         }
@@ -166,7 +166,7 @@ GM_CLONES static void add(double *restrict to, const double *restrict from, doub
 static void sweep(const struct gm_ring_block_root *root, size_t count, double *re, double *im)
 {
     const bool inside = gm_cabs(root->value) < 1;
-    const double complex step = inside ? root->value : 1 / root->value;
+    const double complex step = inside ? root->value : gm_cdivide(1, root->value);
     const double s = creal(step), t = cimag(step);
     double x = 0, y = 0;
     /* inside: e_{i+1} = z e_i + h_i; outside: e_i = (e_{i+1} - h_i)/z */
@@ -202,7 +202,7 @@ static void sweep(const struct gm_ring_block_root *root, size_t count, double *r
 static void sweep_real(const struct gm_ring_block_root *root, size_t count, double *e)
 {
     const bool inside = gm_cabs(root->value) < 1;
-    const double s = creal(inside ? root->value : 1 / root->value);
+    const double s = creal(inside ? root->value : gm_cdivide(1, root->value));
     double x = 0;
     for (size_t k = 0; k < root->reach; k++) {
         x = inside ? s * x + e[count - root->reach + k] : s * (x - e[root->reach - 1 - k]);

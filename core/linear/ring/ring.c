@@ -95,14 +95,14 @@ bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, dou
 {
     /* ((1+z)/(z-1))^power = -ratio; with w one of the power-th roots, z = (w+1)/(w-1) */
     const double complex a = mean / gm_pow(2, power), d = difference / gm_pow(h, power);
-    const double complex ratio = -d / a;
+    const double complex ratio = gm_cdivide(-d, a);
     *ring = (struct gm_ring_roots){.count = count, .scale = a + d, .number = power};
     const double size = gm_pow(gm_cabs(ratio), 1.0 / power);
     for (int k = 0; k < power; k++) {
         const double turn = (gm_carg(ratio) + 2 * M_PI * k) / power;
         const double complex w = size * (gm_cos(turn) + I * gm_sin(turn));
         const double distance = gm_cabs(w - 1);
-        ring->roots[k] = (w + 1) / (w - 1);
+        ring->roots[k] = gm_cdivide(w + 1, w - 1);
         if (!(distance > 1e-12) || !(fabs(gm_cabs(ring->roots[k]) - 1) > 1e-14)) {
             return false;
         }
@@ -121,18 +121,18 @@ static inline void fold(double *x_re, double *x_im, double r_re, double r_im, do
 void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *im, double *scratch)
 {
     const size_t n = ring->count;
-    const double complex over = 1 / ring->scale;
+    const double complex over = gm_cdivide(1, ring->scale);
     size_t shift = 0;
     double complex factor = over;
     for (int k = 0; k < ring->number; k++) {
         const bool inside = gm_cabs(ring->roots[k]) < 1;
         /* inside: (1 - root/z) z, forwards; outside: -root (1 - z/root), backwards */
-        const double complex root = inside ? ring->roots[k] : 1 / ring->roots[k];
+        const double complex root = inside ? ring->roots[k] : gm_cdivide(1, ring->roots[k]);
         const double r_re = creal(root), r_im = cimag(root);
         const size_t reach = terms(gm_cabs(root), n);
         double complex closed = 1;
         if (reach == n) {
-            closed = 1 / (1 - gm_cpow(root, (double)n));
+            closed = gm_cdivide(1, 1 - gm_cpow(root, (double)n));
         }
         double x_re = 0, x_im = 0;
         if (inside) {

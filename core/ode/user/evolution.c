@@ -285,7 +285,8 @@ static void evaluate(struct own *self, const struct gm_tape *tape, const double 
         gm_modes_forward(&room->modes, rates, room->waves);
         for (size_t field = 0; field < self->fields; field++) {
             for (size_t mode = 0; mode < half; mode++) {
-                room->waves[field * points + mode] /= self->masses[mode * self->fields + field];
+                double complex *wave = &room->waves[field * points + mode];
+                *wave = gm_cdivide(*wave, self->masses[mode * self->fields + field]);
             }
         }
         gm_modes_back(&room->modes, room->waves, rates);
@@ -358,7 +359,7 @@ static void make_symbols(struct own *self, const double *values)
             self->masses[mode * n + i] = of_mass;
             self->massive |= of_mass != 1;
             for (size_t j = 0; j < n; j++) {
-                self->symbols[(mode * n + i) * n + j] = row[j] / of_mass;
+                self->symbols[(mode * n + i) * n + j] = gm_cdivide(row[j], of_mass);
             }
         }
     }

@@ -927,7 +927,7 @@ static void node_weights(const struct work *work, size_t mode, double complex *w
         weights[m] = 0;
     }
     if (r == 1) {
-        weights[0] = 2 * mode == points ? 0 : 2 / (gm_cexp(I * angle) + 1);
+        weights[0] = 2 * mode == points ? 0 : gm_cdivide(2, gm_cexp(I * angle) + 1);
         return;
     }
     if (mode == 0 && r == 2) {
@@ -945,14 +945,14 @@ static void node_weights(const struct work *work, size_t mode, double complex *w
     }
     for (size_t p = 0; p < waves; p++) {
         for (size_t k = 0; k < waves; k++) {
-            const double complex factor = k == p ? 0 : matrix[k][p] / matrix[p][p];
+            const double complex factor = k == p ? 0 : gm_cdivide(matrix[k][p], matrix[p][p]);
             for (size_t m = p; m <= waves; m++) {
                 matrix[k][m] -= factor * matrix[p][m];
             }
         }
     }
     for (size_t m = 0; m < waves; m++) {
-        weights[m * apart] = matrix[m][waves] / matrix[m][m];
+        weights[m * apart] = gm_cdivide(matrix[m][waves], matrix[m][m]);
     }
 }
 
@@ -971,7 +971,7 @@ static void side_weights(const struct work *work, size_t mode, double complex *w
         whole += free ? weights[m] : 0;
     }
     for (size_t m = 0; m < work->r; m++) {
-        weights[m] /= whole;
+        weights[m] = gm_cdivide(weights[m], whole);
     }
 }
 

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""States and pictures of the library in WebAssembly against the native one: same.py BUILD BUILD_WEB [FONTS].
+Each run of runs.txt must end in the same bits, and each picture have the same pixels as the program's own painter."""
+import ctypes
+import hashlib
+import json
+import os
+import shlex
+import subprocess
+import sys
+
+build, web = sys.argv[1:3]
+fonts = sys.argv[3] if len(sys.argv) > 3 else "/usr/share/fonts/truetype/dejavu"
+folder = os.path.dirname(os.path.abspath(__file__))
+os.environ["GEOMINT_PAINTER"] = "own"
+library = ctypes.CDLL(os.path.abspath(build + "/library/libgeomint.so.1"))
+handle, size = ctypes.c_void_p, ctypes.c_size_t
+for name, result, arguments in [
+    ("open", handle, [ctypes.c_int, handle]),
+    ("message", ctypes.c_char_p, [handle]),
+    ("lanes", size, [handle]),
+    ("steps_left", ctypes.c_int64, [handle, size]),
+    ("step", ctypes.c_int, [handle, size, ctypes.c_int64]),
+    ("state", handle, [handle, size, handle, handle]),
+    ("draw", ctypes.c_int, [handle, ctypes.c_int, ctypes.c_int, ctypes.c_double, handle]),
+    ("close", None, [handle]),
+]:
+    function = getattr(library, "geomint_" + name)
+    function.restype, function.argtypes = result, arguments
+
+
+def states(run):
+    sums, n, m = [], size(), size()
+    for lane in range(library.geomint_lanes(run)):
+        while (left := library.geomint_steps_left(run, lane)) != 0:
+            library.geomint_step(run, lane, left if left > 0 else 1000)
+        state = library.geomint_state(run, lane, ctypes.byref(n), ctypes.byref(m))
+        sums.append(hashlib.md5(ctypes.string_at(state, 8 * n.value * m.value)).hexdigest())
+    return sums or [library.geomint_message(run).decode()]
+
+
+def picture(run, width, height, scale):
+    rgba = ctypes.create_string_buffer(4 * width * height)
+    library.geomint_draw(run, width, height, scale, rgba)
+    return [hashlib.md5(rgba.raw).hexdigest()]
+
+
+def native(words, shape):
+    run = library.geomint_open(len(words), (ctypes.c_char_p * len(words))(*map(str.encode, words)))
+    sums = states(run)
+    if shape:
+        sums = picture(run, *map(int, shape.split("x")))
+    library.geomint_close(run)
+    return sums
+
+
+def in_wasm(lines, shape):
+    command = ["node", folder + "/states.js", web + "/library/geomint.js", fonts, *([shape] if shape else [])]
+    text = "".join(json.dumps(words) + "\n" for words in lines)
+    answer = subprocess.run(command, input=text, capture_output=True, text=True, check=True)
+    return [json.loads(line) for line in answer.stdout.splitlines()]
+
+
+jobs = {}  # lines of words by the size of their pictures, "" for states
+for line in open(folder + "/runs.txt", encoding="utf-8"):
+    if line.strip() and not line.startswith("#"):
+        first, *words = shlex.split(line)
+        jobs.setdefault("" if first == "state" else first, []).append(words)
+bad = count = 0
+for shape, lines in jobs.items():
+    for words, sums in zip(lines, in_wasm(lines, shape), strict=True):
+        count += 1
+        if sums != native(words, shape):
+            bad += 1
+            print("differs:", shape or "state", *words)
+print(f"{count - bad} passed, {bad} failed")
+sys.exit(bad > 0)
