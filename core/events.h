@@ -41,6 +41,8 @@ struct gm_events {
        until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);
+    /* Returns true if the loops of a motion end before a step that reaches a break (gm_task.watches). */
+    bool (*watches)(const struct gm_problem *motion);
     /* Conserved quantities, whose jumps are added up; the last is the energy, if there is one. */
     size_t quantities;
     bool has_energy;

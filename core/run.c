@@ -278,8 +278,8 @@ static void count_progress(struct gm_run *run, const struct gm_progress *progres
     run->iterations += progress->iterations;
 }
 
-/* Makes steps, whatever happens in them. */
-static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until)
+/* Makes steps, whatever happens in them; if it watches, only those before the first that reaches a break or fails. */
+static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until, bool watches)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
@@ -292,6 +292,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     const bool in_place = is_in_place(run, loop, steps);
     struct gm_task task = task_of(run, run->current, in_place ? run->current : 1 - run->current, steps);
     task.until = until;
+    task.watches = watches;
     run->behind = in_place ? run->behind : 0;
     const unsigned long refusals = gm_memory_refusals();
     struct gm_progress progress = loop(&task);
@@ -299,13 +300,16 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         task = task_again(run);
         loop(&task);
         run->behind = 0;
-        return make_steps(run, steps, until);
+        return make_steps(run, steps, until, false);
     }
     if (gm_memory_refusals() != refusals) {
         /* a result without enough memory, in factors or in a solution, is not valid */
         return run->status = GM_OUT_OF_MEMORY;
     }
-    if (progress.done < steps && !(family->adaptive && progress.status == GM_OK)) {
+    if (watches && progress.done == 0) {
+        return GM_OK;
+    }
+    if (progress.done < steps && !watches && !(family->adaptive && progress.status == GM_OK)) {
         const int64_t done = progress.done;
         run->status = progress.status;
         run->unsolved = progress.unsolved;
@@ -321,6 +325,10 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     }
     count_progress(run, &progress);
     run->t_behind = run->t;
+    if (run->problem->events && !in_place) {
+        memcpy(events_of(run, 1 - run->current), events_of(run, run->current),
+               gm_events_memory(run->problem) * sizeof(double));
+    }
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
     run->n += progress.done;
@@ -361,8 +369,6 @@ static void pass_events(struct gm_run *run)
 {
     const size_t carried = carry_count(run);
     const int before = 1 - run->current;
-    double *memory = events_of(run, run->current);
-    memcpy(memory, events_of(run, before), gm_events_memory(run->problem) * sizeof *memory);
     struct gm_event_step step = {.problem = run->problem,
                                  .t = run->t0 + (double)(run->n - 1) * run->dt,
                                  .dt = run->dt,
@@ -373,7 +379,7 @@ static void pass_events(struct gm_run *run)
                                  .state = state_count(run),
                                  .begin = half(run, before),
                                  .end = half(run, run->current),
-                                 .memory = memory,
+                                 .memory = events_of(run, run->current),
                                  .scratch = run->event_scratch,
                                  .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
                                  .motion = take_motion,
@@ -418,18 +424,16 @@ static bool make_together(struct gm_run *run)
     double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
     const double *memory = events_of(run, run->current);
-    const size_t bytes = gm_events_memory(problem) * sizeof *memory;
     const unsigned long refusals = gm_memory_refusals();
     bool good = true;
     gm_run_save(run, snapshot);
     for (size_t k = 0; good && k < TOGETHER; k++) {
-        good = make_steps(run, 1, INFINITY) == GM_OK;
+        good = make_steps(run, 1, INFINITY, false) == GM_OK;
         const double *state = gm_run_state(run);
         for (size_t c = 0; good && c < n; c++) {
             looks[c * TOGETHER + k] = state[c * m + m - 1];
         }
         looks[n * TOGETHER + k] = run->t;
-        memcpy(events_of(run, run->current), events_of(run, 1 - run->current), good ? bytes : 0);
     }
     if (good) {
         problem->events->values(problem, gm_events_modes(problem, memory), looks, TOGETHER, values);
@@ -448,12 +452,22 @@ static bool make_together(struct gm_run *run)
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
-    if (!events || !(events->changes || (run->ends && events->ends_runs) || gm_run_locates(run))) {
-        return make_steps(run, steps, until);
+    const bool watched = events && (events->changes || (run->ends && events->ends_runs)),
+               locates = gm_run_locates(run), ends = run->scheme->family->adaptive;
+    if (!watched && !locates) {
+        return make_steps(run, steps, until, false);
     }
-    const bool ends = run->scheme->family->adaptive;
     for (int64_t alone = 0;
          steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
+        if (!watched && gm_run_motion(run) && events->watches(run->motion)) {
+            const int64_t whole = run->steps;
+            make_steps(run, steps, until, true);
+            steps -= run->steps - whole;
+            if (steps == 0 || run->status != GM_OK) {
+                break;
+            }
+            alone = TOGETHER; /* the next is looked at */
+        }
         const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
         if (together && make_together(run)) {
             steps -= TOGETHER;
@@ -461,7 +475,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         }
         alone = together ? TOGETHER : alone;
         const int64_t before = run->steps;
-        if (make_steps(run, 1, until) != GM_OK || run->steps == before) {
+        if (make_steps(run, 1, until, false) != GM_OK || run->steps == before) {
             break;
         }
         pass_events(run);
