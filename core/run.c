@@ -449,6 +449,14 @@ static bool make_together(struct gm_run *run)
     return good;
 }
 
+/* Returns true if the scheme's loop ends before a step that reaches a break. */
+static bool loop_watches(struct gm_run *run)
+{
+    const struct gm_problem *motion = gm_run_motion(run);
+    return motion && gm_scheme_loop(run->scheme, motion) != run->scheme->family->loop &&
+           run->problem->events->watches(motion);
+}
+
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
@@ -459,7 +467,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     }
     for (int64_t alone = 0;
          steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
-        if (!watched && gm_run_motion(run) && events->watches(run->motion)) {
+        if (!watched && loop_watches(run)) {
             const int64_t whole = run->steps;
             make_steps(run, steps, until, true);
             steps -= run->steps - whole;
