@@ -118,6 +118,9 @@ static void look_at(const struct gm_problem *problem, double t, const double *y,
     look[problem->n] = t;
 }
 
+/* The size of the sign with which an event waits for a motion that rests on g = 0. */
+static const double AT_REST = 0.5;
+
 static double sign_of(double value)
 {
     return (value > 0) - (value < 0);
@@ -158,8 +161,9 @@ static double awaited(const struct gm_event_step *step, size_t event)
     return is_whole(step, event) ? 1 : step->memory[event];
 }
 
-/* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. At a break it
-   leads to a side that it does not leave at once. */
+/* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
+   the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground. At a
+   break it leads to a side that it does not leave at once. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
@@ -170,7 +174,8 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
     } else if (fabs(g) > nothing) {
         *memory = sign_of(g);
     } else if (event < first_break(step->problem)) {
-        *memory = sign_of_rate(step, event, look);
+        const double ahead = sign_of_rate(step, event, look);
+        *memory = ahead != 0 ? ahead : sign_of(*memory) * AT_REST;
     } else {
         *memory = 1;
         const double above = sign_of_rate(step, event, look);
@@ -215,7 +220,7 @@ void gm_events_arm(struct gm_event_step *step)
 
 static bool crosses(double sign, double value)
 {
-    return sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
+    return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
 bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks)
@@ -278,7 +283,7 @@ static double value_after(void *data, double s)
    cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
-    const double sign = awaited(rest->step, event), least = 0x1p-51,
+    const double waiting = awaited(rest->step, event), sign = sign_of(waiting), least = 0x1p-51,
                  at_begin = watched_value(rest->step, event, rest->at_begin[event]),
                  at_end = watched_value(rest->step, event, rest->at_end[event]);
     double low = 0, at_low = at_begin;
@@ -291,7 +296,8 @@ static double place_of(struct rest *rest, size_t event)
         low = 0;
         at_low = at_begin;
     }
-    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
+    const bool at_once = crosses(sign, at_low) || (fabs(waiting) == AT_REST && sign_of(at_low) != sign);
+    return at_once ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
 }
 
 /* Gives breaks without a side the one where the rest has led, and makes the rest on that side. Returns false if it

@@ -360,6 +360,8 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
         count_progress(run, &progress);
+        run->status = progress.status;
+        run->unsolved = progress.unsolved;
     }
     return progress.done == 1 && gm_memory_refusals() == refusals;
 }
@@ -394,7 +396,7 @@ static void pass_events(struct gm_run *run)
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
     if (outcome == GM_EVENTS_FAILED) {
-        run->status = refused ? GM_OUT_OF_MEMORY : GM_NO_CONVERGENCE;
+        run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
         run->current = before;
         run->n--;
         run->steps--;
