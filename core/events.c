@@ -213,7 +213,7 @@ void gm_events_arm(struct gm_event_step *step)
     look_at(problem, step->t, step->begin, look);
     settle(step, look, NULL, g);
     find_g(step, look, g);
-    for (size_t i = 0; i < first_break(problem); i++) {
+    for (size_t i = 0; i < first_break(problem) && step->first; i++) {
         wait_ahead(step, i, look, g[i], 0);
     }
 }
@@ -374,11 +374,15 @@ static void book(struct rest *rest)
     }
 }
 
-/* Turns a break where its g is. */
-static void turn(const struct gm_event_step *step, size_t event, double g)
+/* Turns a break where its g is; where an event has changed the state too, to the side where the motion leads. */
+static void turn(const struct gm_event_step *step, size_t event, const double *look, double g, bool changed)
 {
     double *mode = &step->memory[event];
-    *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
+    if (!changed) {
+        *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
+    } else {
+        wait_ahead(step, event, look, is_whole(step, event) ? round(g) : 0, 0);
+    }
 }
 
 /* The sign with which g moves away from a break at which it is. */
@@ -387,8 +391,8 @@ static double away(const struct gm_event_step *step, size_t event, double g)
     return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion. */
-static void change(struct rest *rest, double t, size_t event)
+/* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state. */
+static void change(struct rest *rest, double t, size_t event, bool changed)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
@@ -403,7 +407,7 @@ static void change(struct rest *rest, double t, size_t event)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        turn(step, event, rest->values[event]);
+        turn(step, event, rest->before, rest->values[event], changed);
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
@@ -412,8 +416,9 @@ static void change(struct rest *rest, double t, size_t event)
         step->memory[counts_at(problem) + event]++;
     }
     for (size_t i = 0; i < first_break(problem) && !turns; i++) {
-        const double nothing =
-            fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
+        /* a g that jumps is not 0 just beyond */
+        const double size = fabs(rest->at_begin[i]) + fabs(rest->at_end[i]),
+                     nothing = fmin(fabs(rest->values[i]), 1e-6 * size) + roundoff * size;
         if (i == event || after[i] != rest->values[i]) {
             wait_ahead(step, i, rest->after, after[i], i == event ? nothing : 0);
         }
@@ -492,7 +497,7 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         if (i < first_break(step->problem) && made++ == 0) {
             many = are_too_short(step, t);
         }
-        change(rest, t, i);
+        change(rest, t, i, made > 0);
         note(step, i, rest->values[i]);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;

@@ -76,9 +76,9 @@ double gm_events_booked(const struct gm_problem *problem, const double *memory, 
 struct gm_event_step {
     const struct gm_problem *problem;
     double t, dt;
-    bool first;               /* of the run: a start on g = 0, up to round-off, does not pass it */
-    bool ends;                /* events that end the run do so */
-    bool locates;             /* breaks are located */
+    bool first;   /* of the run: a start on g = 0, up to round-off, does not pass it; all events are armed */
+    bool ends;    /* events that end the run do so */
+    bool locates; /* breaks are located */
     size_t size, state;       /* numbers of a state with its carry, and without */
     const double *begin;      /* the state before */
     double *end;              /* the state after the whole step; then the one after the events */
@@ -104,7 +104,8 @@ enum gm_event_outcome {
 };
 
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
-/* Begins the waiting of all events in the state `begin` at t, of the last member; counts and jumps stay. */
+/* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
+   jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
 /* Returns true if some event waits with no sign, or with another one than in some of `looks` looks; their values are those
    of gm_events. */

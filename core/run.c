@@ -72,7 +72,7 @@ const double *gm_run_events(const struct gm_run *run)
 
 bool gm_run_locates(const struct gm_run *run)
 {
-    return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 &&
+    return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
            gm_scheme_makes_parts(run->scheme);
 }
 
@@ -92,11 +92,10 @@ static bool open_workspace(struct gm_run *run)
 static const struct gm_problem *take_motion(void *data, const double *modes)
 {
     struct gm_run *run = data;
-    if (!gm_run_locates(run)) {
-        return run->problem;
-    }
     const struct gm_problem *before = run->motion,
-                            *now = run->problem->events->freeze(run->problem, &run->frozen, modes);
+                            *now = gm_run_locates(run)
+                                       ? run->problem->events->freeze(run->problem, &run->frozen, modes)
+                                       : run->problem;
     if (now && now != before) {
         run->motion = now;
         if (!open_workspace(run)) {
@@ -115,12 +114,14 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
 }
 
-static void arm(struct gm_run *run)
+/* Lets breaks wait in the current state; `first`: all events. */
+static void arm(struct gm_run *run, bool first)
 {
     if (run->problem->events) {
         gm_events_arm(&(struct gm_event_step){.problem = run->problem,
                                               .t = run->t,
                                               .dt = run->dt,
+                                              .first = first,
                                               .locates = gm_run_locates(run),
                                               .begin = gm_run_state(run),
                                               .memory = events_of(run, run->current),
@@ -213,7 +214,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
     if (problem->events && open_events(run)) {
         gm_events_clear(problem, events_of(run, 0));
-        arm(run);
+        arm(run, true);
     }
     start(run);
     if (gm_memory_refusals() != refusals) {
@@ -459,6 +460,25 @@ static bool loop_watches(struct gm_run *run)
            run->problem->events->watches(motion);
 }
 
+/* Makes a step across its breaks: beyond a switch a frozen formula may have no value, as sqrt(x) of if(x > 0, sqrt(x), 0).
+   Returns false if that fails too, with the status of the frozen one. */
+static bool step_across(struct gm_run *run)
+{
+    const enum gm_status failed = run->status;
+    run->status = GM_OK;
+    run->across = true;
+    const bool made = make_steps(run, 1, INFINITY, false) == GM_OK;
+    if (made) {
+        pass_events(run);
+    }
+    run->across = false;
+    run->status = made || run->status == GM_OUT_OF_MEMORY ? run->status : failed;
+    if (made && run->status == GM_OK) {
+        arm(run, false);
+    }
+    return made;
+}
+
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
@@ -485,10 +505,11 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         }
         alone = together ? TOGETHER : alone;
         const int64_t before = run->steps;
-        if (make_steps(run, 1, until, false) != GM_OK || run->steps == before) {
+        if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
+            pass_events(run);
+        } else if (!locates || !step_across(run)) {
             break;
         }
-        pass_events(run);
         steps--;
         alone -= alone > 0;
     }
@@ -637,7 +658,7 @@ void gm_run_set_state(struct gm_run *run, const double *y, const double *memory)
     memset(half(run, run->current) + state_count(run), 0, carry_count(run) * sizeof(double));
     gm_run_set_step(run, run->dt);
     run->stopped = 0;
-    arm(run);
+    arm(run, true);
     if (memory) {
         memcpy(half(run, run->current) + state_count(run) + carry_count(run), memory,
                memory_count(run) * sizeof(double));
@@ -658,7 +679,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         memcpy(events_of(next, 0), events_of(run, run->current),
                gm_events_memory(run->problem) * sizeof(double));
         if (gm_run_locates(next) && !gm_run_locates(run)) {
-            arm(next); /* sides of breaks were not followed */
+            arm(next, true); /* sides of breaks were not followed */
         }
         next->steps = run->steps;
         next->evaluations = run->evaluations;
@@ -724,6 +745,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.ends = run->ends;
     then.shortens = run->shortens;
     then.witness = run->witness;
+    then.across = false;
     then.event_scratch = run->event_scratch;
     then.motion = run->motion;
     then.frozen = run->frozen;

@@ -766,6 +766,15 @@ END
     "$geomint" run rest.system scheme=rk4 --json >out
     [ $? = "$wanted" ] && [ "$(grep -o '"events":1\b' out)" ] || fail "at rest on its surface, $rests: $(cat out)"
 done
+# on the surface of a break an event turns the motion back: a parabola between two bounces, no sliding
+printf 'rate: x = v, v = if(x > 0, -1, 1)\nevent: x = 0; v = -v\nstart: x = 1, v = 0\nuntil: 12\ndt: 0.1\nobserve: a = x\n' >both.system
+"$geomint" run both.system scheme=rk4 --json >out || fail "an event on a break: $(cat out)"
+python3 -c 'import json, math; a = json.load(open("out"))["observables"]["a"]; s = math.fmod(12 - math.sqrt(2), 2*math.sqrt(2)); assert abs(a - math.sqrt(2)*s + s*s/2) < 1e-9, a' || fail "an event on a break: $(cat out)"
+# a tank runs dry: beyond the switch the root has no value, so this step is made across it
+for scheme in rk4 gauss4; do
+    "$geomint" run system 'rate=x = -if(x > 0, sqrt(x), 0)' x=1 until=5 dt=.1 scheme=$scheme --json --state >out || fail "a tank with $scheme: $(cat out)"
+    python3 -c 'import json; end = json.load(open("out")); assert end["t"] == 5 and abs(end["state"][0]) < 1e-2, end' || fail "a tank with $scheme: $(cat out)"
+done
 # where the motion only touches the surface there is no tangent: the tangents are NaN
 printf 'coordinates: x\nmomenta: y\nH: y\nevent: (x - 1)^3 = 0; y = 2*y\nstart: x = 0, y = 1\nuntil: 3\ndt: 0.1\ntangents: 2\n' >graze.system
 "$geomint" run graze.system scheme=rk4 >out
