@@ -118,6 +118,9 @@ static void look_at(const struct gm_problem *problem, double t, const double *y,
     look[problem->n] = t;
 }
 
+/* The size of the sign with which an event waits for a motion that rests on g = 0. */
+static const double AT_REST = 0.5;
+
 static double sign_of(double value)
 {
     return (value > 0) - (value < 0);
@@ -158,8 +161,9 @@ static double awaited(const struct gm_event_step *step, size_t event)
     return is_whole(step, event) ? 1 : step->memory[event];
 }
 
-/* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. At a break it
-   leads to a side that it does not leave at once. */
+/* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
+   the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground. At a
+   break it leads to a side that it does not leave at once. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
@@ -170,7 +174,8 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
     } else if (fabs(g) > nothing) {
         *memory = sign_of(g);
     } else if (event < first_break(step->problem)) {
-        *memory = sign_of_rate(step, event, look);
+        const double ahead = sign_of_rate(step, event, look);
+        *memory = ahead != 0 ? ahead : sign_of(*memory) * AT_REST;
     } else {
         *memory = 1;
         const double above = sign_of_rate(step, event, look);
@@ -208,14 +213,14 @@ void gm_events_arm(struct gm_event_step *step)
     look_at(problem, step->t, step->begin, look);
     settle(step, look, NULL, g);
     find_g(step, look, g);
-    for (size_t i = 0; i < first_break(problem); i++) {
+    for (size_t i = 0; i < first_break(problem) && step->first; i++) {
         wait_ahead(step, i, look, g[i], 0);
     }
 }
 
 static bool crosses(double sign, double value)
 {
-    return sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
+    return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
 bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks)
@@ -278,7 +283,7 @@ static double value_after(void *data, double s)
    cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
-    const double sign = awaited(rest->step, event), least = 0x1p-51,
+    const double waiting = awaited(rest->step, event), sign = sign_of(waiting), least = 0x1p-51,
                  at_begin = watched_value(rest->step, event, rest->at_begin[event]),
                  at_end = watched_value(rest->step, event, rest->at_end[event]);
     double low = 0, at_low = at_begin;
@@ -291,7 +296,8 @@ static double place_of(struct rest *rest, size_t event)
         low = 0;
         at_low = at_begin;
     }
-    return crosses(sign, at_low) ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
+    const bool at_once = crosses(sign, at_low) || (fabs(waiting) == AT_REST && sign_of(at_low) != sign);
+    return at_once ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
 }
 
 /* Gives breaks without a side the one where the rest has led, and makes the rest on that side. Returns false if it
@@ -368,11 +374,15 @@ static void book(struct rest *rest)
     }
 }
 
-/* Turns a break where its g is. */
-static void turn(const struct gm_event_step *step, size_t event, double g)
+/* Turns a break where its g is; where an event has changed the state too, to the side where the motion leads. */
+static void turn(const struct gm_event_step *step, size_t event, const double *look, double g, bool changed)
 {
     double *mode = &step->memory[event];
-    *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
+    if (!changed) {
+        *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
+    } else {
+        wait_ahead(step, event, look, is_whole(step, event) ? round(g) : 0, 0);
+    }
 }
 
 /* The sign with which g moves away from a break at which it is. */
@@ -381,8 +391,8 @@ static double away(const struct gm_event_step *step, size_t event, double g)
     return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion. */
-static void change(struct rest *rest, double t, size_t event)
+/* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state. */
+static void change(struct rest *rest, double t, size_t event, bool changed)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
@@ -397,7 +407,7 @@ static void change(struct rest *rest, double t, size_t event)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        turn(step, event, rest->values[event]);
+        turn(step, event, rest->before, rest->values[event], changed);
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
@@ -406,8 +416,9 @@ static void change(struct rest *rest, double t, size_t event)
         step->memory[counts_at(problem) + event]++;
     }
     for (size_t i = 0; i < first_break(problem) && !turns; i++) {
-        const double nothing =
-            fabs(rest->values[i]) + roundoff * (fabs(rest->at_begin[i]) + fabs(rest->at_end[i]));
+        /* a g that jumps is not 0 just beyond */
+        const double size = fabs(rest->at_begin[i]) + fabs(rest->at_end[i]),
+                     nothing = fmin(fabs(rest->values[i]), 1e-6 * size) + roundoff * size;
         if (i == event || after[i] != rest->values[i]) {
             wait_ahead(step, i, rest->after, after[i], i == event ? nothing : 0);
         }
@@ -486,7 +497,7 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         if (i < first_break(step->problem) && made++ == 0) {
             many = are_too_short(step, t);
         }
-        change(rest, t, i);
+        change(rest, t, i, made > 0);
         note(step, i, rest->values[i]);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;

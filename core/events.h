@@ -41,6 +41,8 @@ struct gm_events {
        until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);
+    /* Returns true if the loops of a motion end before a step that reaches a break (gm_task.watches). */
+    bool (*watches)(const struct gm_problem *motion);
     /* Conserved quantities, whose jumps are added up; the last is the energy, if there is one. */
     size_t quantities;
     bool has_energy;
@@ -74,9 +76,9 @@ double gm_events_booked(const struct gm_problem *problem, const double *memory, 
 struct gm_event_step {
     const struct gm_problem *problem;
     double t, dt;
-    bool first;               /* of the run: a start on g = 0, up to round-off, does not pass it */
-    bool ends;                /* events that end the run do so */
-    bool locates;             /* breaks are located */
+    bool first;   /* of the run: a start on g = 0, up to round-off, does not pass it; all events are armed */
+    bool ends;    /* events that end the run do so */
+    bool locates; /* breaks are located */
     size_t size, state;       /* numbers of a state with its carry, and without */
     const double *begin;      /* the state before */
     double *end;              /* the state after the whole step; then the one after the events */
@@ -102,7 +104,8 @@ enum gm_event_outcome {
 };
 
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
-/* Begins the waiting of all events in the state `begin` at t, of the last member; counts and jumps stay. */
+/* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
+   jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
 /* Returns true if some event waits with no sign, or with another one than in some of `looks` looks; their values are those
    of gm_events. */

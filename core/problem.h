@@ -52,6 +52,7 @@ struct gm_task {
     int64_t steps;
     int64_t steps_before; /* steps that the run has already made */
     double limit;         /* a component above this is a blow-up */
+    bool watches;         /* loops that can (gm_events.watches) end before a step that reaches a break */
     const double *y;
     double *out;
     const double *carry; /* carry of compensated summation, n * m; NULL: plain summation */

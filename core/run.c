@@ -72,7 +72,7 @@ const double *gm_run_events(const struct gm_run *run)
 
 bool gm_run_locates(const struct gm_run *run)
 {
-    return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 &&
+    return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
            gm_scheme_makes_parts(run->scheme);
 }
 
@@ -92,11 +92,10 @@ static bool open_workspace(struct gm_run *run)
 static const struct gm_problem *take_motion(void *data, const double *modes)
 {
     struct gm_run *run = data;
-    if (!gm_run_locates(run)) {
-        return run->problem;
-    }
     const struct gm_problem *before = run->motion,
-                            *now = run->problem->events->freeze(run->problem, &run->frozen, modes);
+                            *now = gm_run_locates(run)
+                                       ? run->problem->events->freeze(run->problem, &run->frozen, modes)
+                                       : run->problem;
     if (now && now != before) {
         run->motion = now;
         if (!open_workspace(run)) {
@@ -115,12 +114,14 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
 }
 
-static void arm(struct gm_run *run)
+/* Lets breaks wait in the current state; `first`: all events. */
+static void arm(struct gm_run *run, bool first)
 {
     if (run->problem->events) {
         gm_events_arm(&(struct gm_event_step){.problem = run->problem,
                                               .t = run->t,
                                               .dt = run->dt,
+                                              .first = first,
                                               .locates = gm_run_locates(run),
                                               .begin = gm_run_state(run),
                                               .memory = events_of(run, run->current),
@@ -213,7 +214,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
     if (problem->events && open_events(run)) {
         gm_events_clear(problem, events_of(run, 0));
-        arm(run);
+        arm(run, true);
     }
     start(run);
     if (gm_memory_refusals() != refusals) {
@@ -278,8 +279,8 @@ static void count_progress(struct gm_run *run, const struct gm_progress *progres
     run->iterations += progress->iterations;
 }
 
-/* Makes steps, whatever happens in them. */
-static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until)
+/* Makes steps, whatever happens in them; if it watches, only those before the first that reaches a break or fails. */
+static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until, bool watches)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
@@ -292,6 +293,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     const bool in_place = is_in_place(run, loop, steps);
     struct gm_task task = task_of(run, run->current, in_place ? run->current : 1 - run->current, steps);
     task.until = until;
+    task.watches = watches;
     run->behind = in_place ? run->behind : 0;
     const unsigned long refusals = gm_memory_refusals();
     struct gm_progress progress = loop(&task);
@@ -299,13 +301,16 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         task = task_again(run);
         loop(&task);
         run->behind = 0;
-        return make_steps(run, steps, until);
+        return make_steps(run, steps, until, false);
     }
     if (gm_memory_refusals() != refusals) {
         /* a result without enough memory, in factors or in a solution, is not valid */
         return run->status = GM_OUT_OF_MEMORY;
     }
-    if (progress.done < steps && !(family->adaptive && progress.status == GM_OK)) {
+    if (watches && progress.done == 0) {
+        return GM_OK;
+    }
+    if (progress.done < steps && !watches && !(family->adaptive && progress.status == GM_OK)) {
         const int64_t done = progress.done;
         run->status = progress.status;
         run->unsolved = progress.unsolved;
@@ -321,6 +326,10 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     }
     count_progress(run, &progress);
     run->t_behind = run->t;
+    if (run->problem->events && !in_place) {
+        memcpy(events_of(run, 1 - run->current), events_of(run, run->current),
+               gm_events_memory(run->problem) * sizeof(double));
+    }
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
     run->n += progress.done;
@@ -352,6 +361,8 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
         count_progress(run, &progress);
+        run->status = progress.status;
+        run->unsolved = progress.unsolved;
     }
     return progress.done == 1 && gm_memory_refusals() == refusals;
 }
@@ -361,8 +372,6 @@ static void pass_events(struct gm_run *run)
 {
     const size_t carried = carry_count(run);
     const int before = 1 - run->current;
-    double *memory = events_of(run, run->current);
-    memcpy(memory, events_of(run, before), gm_events_memory(run->problem) * sizeof *memory);
     struct gm_event_step step = {.problem = run->problem,
                                  .t = run->t0 + (double)(run->n - 1) * run->dt,
                                  .dt = run->dt,
@@ -373,7 +382,7 @@ static void pass_events(struct gm_run *run)
                                  .state = state_count(run),
                                  .begin = half(run, before),
                                  .end = half(run, run->current),
-                                 .memory = memory,
+                                 .memory = events_of(run, run->current),
                                  .scratch = run->event_scratch,
                                  .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
                                  .motion = take_motion,
@@ -388,7 +397,7 @@ static void pass_events(struct gm_run *run)
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
     if (outcome == GM_EVENTS_FAILED) {
-        run->status = refused ? GM_OUT_OF_MEMORY : GM_NO_CONVERGENCE;
+        run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
         run->current = before;
         run->n--;
         run->steps--;
@@ -418,18 +427,16 @@ static bool make_together(struct gm_run *run)
     double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
     const double *memory = events_of(run, run->current);
-    const size_t bytes = gm_events_memory(problem) * sizeof *memory;
     const unsigned long refusals = gm_memory_refusals();
     bool good = true;
     gm_run_save(run, snapshot);
     for (size_t k = 0; good && k < TOGETHER; k++) {
-        good = make_steps(run, 1, INFINITY) == GM_OK;
+        good = make_steps(run, 1, INFINITY, false) == GM_OK;
         const double *state = gm_run_state(run);
         for (size_t c = 0; good && c < n; c++) {
             looks[c * TOGETHER + k] = state[c * m + m - 1];
         }
         looks[n * TOGETHER + k] = run->t;
-        memcpy(events_of(run, run->current), events_of(run, 1 - run->current), good ? bytes : 0);
     }
     if (good) {
         problem->events->values(problem, gm_events_modes(problem, memory), looks, TOGETHER, values);
@@ -445,15 +452,52 @@ static bool make_together(struct gm_run *run)
     return good;
 }
 
+/* Returns true if the scheme's loop ends before a step that reaches a break. */
+static bool loop_watches(struct gm_run *run)
+{
+    const struct gm_problem *motion = gm_run_motion(run);
+    return motion && gm_scheme_loop(run->scheme, motion) != run->scheme->family->loop &&
+           run->problem->events->watches(motion);
+}
+
+/* Makes a step across its breaks: beyond a switch a frozen formula may have no value, as sqrt(x) of if(x > 0, sqrt(x), 0).
+   Returns false if that fails too, with the status of the frozen one. */
+static bool step_across(struct gm_run *run)
+{
+    const enum gm_status failed = run->status;
+    run->status = GM_OK;
+    run->across = true;
+    const bool made = make_steps(run, 1, INFINITY, false) == GM_OK;
+    if (made) {
+        pass_events(run);
+    }
+    run->across = false;
+    run->status = made || run->status == GM_OUT_OF_MEMORY ? run->status : failed;
+    if (made && run->status == GM_OK) {
+        arm(run, false);
+    }
+    return made;
+}
+
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
-    if (!events || !(events->changes || (run->ends && events->ends_runs) || gm_run_locates(run))) {
-        return make_steps(run, steps, until);
+    const bool watched = events && (events->changes || (run->ends && events->ends_runs)),
+               locates = gm_run_locates(run), ends = run->scheme->family->adaptive;
+    if (!watched && !locates) {
+        return make_steps(run, steps, until, false);
     }
-    const bool ends = run->scheme->family->adaptive;
     for (int64_t alone = 0;
          steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
+        if (!watched && loop_watches(run)) {
+            const int64_t whole = run->steps;
+            make_steps(run, steps, until, true);
+            steps -= run->steps - whole;
+            if (steps == 0 || run->status != GM_OK) {
+                break;
+            }
+            alone = TOGETHER; /* the next is looked at */
+        }
         const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
         if (together && make_together(run)) {
             steps -= TOGETHER;
@@ -461,10 +505,11 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         }
         alone = together ? TOGETHER : alone;
         const int64_t before = run->steps;
-        if (make_steps(run, 1, until) != GM_OK || run->steps == before) {
+        if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
+            pass_events(run);
+        } else if (!locates || !step_across(run)) {
             break;
         }
-        pass_events(run);
         steps--;
         alone -= alone > 0;
     }
@@ -613,7 +658,7 @@ void gm_run_set_state(struct gm_run *run, const double *y, const double *memory)
     memset(half(run, run->current) + state_count(run), 0, carry_count(run) * sizeof(double));
     gm_run_set_step(run, run->dt);
     run->stopped = 0;
-    arm(run);
+    arm(run, true);
     if (memory) {
         memcpy(half(run, run->current) + state_count(run) + carry_count(run), memory,
                memory_count(run) * sizeof(double));
@@ -634,7 +679,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         memcpy(events_of(next, 0), events_of(run, run->current),
                gm_events_memory(run->problem) * sizeof(double));
         if (gm_run_locates(next) && !gm_run_locates(run)) {
-            arm(next); /* sides of breaks were not followed */
+            arm(next, true); /* sides of breaks were not followed */
         }
         next->steps = run->steps;
         next->evaluations = run->evaluations;
@@ -700,6 +745,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.ends = run->ends;
     then.shortens = run->shortens;
     then.witness = run->witness;
+    then.across = false;
     then.event_scratch = run->event_scratch;
     then.motion = run->motion;
     then.frozen = run->frozen;

@@ -33,7 +33,8 @@ struct gm_run {
     struct gm_event_witness witness; /* set by callers who follow events */
     double *event_scratch;           /* NULL: the problem has no events; not in snapshots */
     const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
-    void *frozen;                    /* keeps such problems; NULL: none, or breaks are not located */
+    bool across;      /* breaks are not located in this step, which a frozen formula does not make */
+    void *frozen;     /* keeps such problems; NULL: none, or breaks are not located */
     size_t turned;    /* with GM_SLIDING, and with GM_EVENTS_ACCUMULATE if breaks do: the break */
     double turned_at; /* and the value of its g */
 };

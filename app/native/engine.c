@@ -43,7 +43,7 @@ static const char unpaired[] = "-fno-tree-slp-vectorize";
 /* The compiled part of the loops: a family's, for single runs or for ensembles. */
 struct part {
     int family;
-    bool alone;
+    bool alone, frozen; /* frozen: of motions with frozen switches */
     enum gm_isa isa;
 };
 
@@ -78,13 +78,26 @@ static bool is_written(const struct gm_lane *lane)
     return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
 }
 
+/* Returns the loops of which steps are made. */
+static const struct gm_loops *taken_by(const struct gm_lane *lane)
+{
+    const struct gm_problem *motion = gm_run_motion(lane->run);
+    return motion ? gm_user_problem_taken(motion) : NULL;
+}
+
+static void let_take(struct gm_lane *lane, const struct gm_loops *loops)
+{
+    if (gm_run_locates(lane->run)) {
+        gm_user_problem_take_frozen(&lane->problem, loops);
+    } else {
+        gm_user_problem_take(&lane->problem, loops);
+    }
+}
+
 /* Returns true if the lane has compiled code, with the loops that its scheme calls. */
 static bool is_native(const struct gm_lane *lane)
 {
-    if (gm_run_locates(lane->run)) { /* the formulas change at each break */
-        return false;
-    }
-    const struct gm_loops *taken = gm_user_problem_taken(&lane->problem);
+    const struct gm_loops *taken = taken_by(lane);
     const int over = gm_scheme_over_kernels(lane->scheme);
     if (taken && over == GM_OVER_ALL) {
         return taken->over_kernels[GM_OVER_EXPLICIT] && taken->over_kernels[GM_OVER_IMPLICIT];
@@ -107,6 +120,7 @@ static struct part part_of(const struct gm_lane *lane)
     return (struct part){
         .family = gm_scheme_over_kernels(lane->scheme),
         .alone = alone,
+        .frozen = gm_run_locates(lane->run),
         .isa = alone && lane->problem.n <= FILLS_ONE ? GM_ISA_BASELINE : gm_isa_best(),
     };
 }
@@ -274,10 +288,12 @@ static struct build *build_of(const struct gm_lane *lane)
     const struct part part = part_of(lane);
     void **note = gm_user_problem_note(&lane->problem);
     const struct build *noted = *note;
-    if (noted && noted->part.family == part.family && noted->part.alone == part.alone) {
+    if (noted && noted->part.family == part.family && noted->part.alone == part.alone &&
+        noted->part.frozen == part.frozen) {
         return *note;
     }
-    char *text = gm_user_problem_kernel(&lane->problem, part.family, &lacks);
+    const struct gm_problem *motion = gm_run_motion(lane->run);
+    char *text = motion ? gm_user_problem_kernel(motion, part.family, &lacks) : NULL;
     struct gm_digest source = gm_digest_open();
     if (!text && !lacks) {
         return NULL;
@@ -334,7 +350,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
         gm_run_save(run, before);
         const bool tried = try_steps(run, before, one);
         struct gm_run then = *run;
-        gm_user_problem_take(&lane->problem, loops);
+        let_take(lane, loops);
         equal = tried && try_steps(run, before, other) && run->status == then.status &&
                 run->steps == then.steps && run->evaluations == then.evaluations &&
                 run->iterations == then.iterations && run->solves == then.solves;
@@ -348,7 +364,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
     }
     run->witness = witness;
     if (!equal) {
-        gm_user_problem_take(&lane->problem, NULL);
+        let_take(lane, NULL);
     }
     free(before);
     return equal;
@@ -357,8 +373,7 @@ static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
 /* The loops of a build that is ready go to a lane. */
 static void give(struct build *build, struct gm_lane *lane)
 {
-    if (build->state != READY || lane->run->status != GM_OK ||
-        gm_user_problem_taken(&lane->problem) == build->loops) {
+    if (build->state != READY || lane->run->status != GM_OK || taken_by(lane) == build->loops) {
         return;
     }
     const unsigned long refusals = gm_memory_refusals();
@@ -373,13 +388,9 @@ void gm_engine_meet(struct gm_lane *lane)
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane)) {
         return;
     }
-    if (gm_run_locates(lane->run)) {
-        if (chosen == GM_ENGINE_NATIVE && tell) {
-            tell("the formulas are interpreted: breaks are located");
-        }
-        return;
+    if (!gm_run_locates(lane->run)) {
+        gm_user_problem_take_compiled(&lane->problem, gm_scheme_over_kernels(lane->scheme));
     }
-    gm_user_problem_take_compiled(&lane->problem, gm_scheme_over_kernels(lane->scheme));
     if (chosen != GM_ENGINE_NATIVE || is_native(lane)) {
         return;
     }
@@ -392,8 +403,7 @@ void gm_engine_meet(struct gm_lane *lane)
     if (build) {
         give(build, lane);
     }
-    if (build && build->state == READY && gm_user_problem_taken(&lane->problem) == build->loops &&
-        !is_native(lane)) {
+    if (build && build->state == READY && taken_by(lane) == build->loops && !is_native(lane)) {
         gm_refuse(build->sentence, "splittings have native loops where H = T(p) + V(q) holds no time");
         build->state = REFUSED;
     }
@@ -410,7 +420,7 @@ void gm_engine_look(struct gm_lane *lane, double spent, double left)
 {
     static const double building = 5; /* seconds */
     if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane) || is_native(lane) || stopping ||
-        gm_run_locates(lane->run) || pthread_mutex_trylock(&making) != 0) {
+        pthread_mutex_trylock(&making) != 0) {
         return;
     }
     spent_in_all += spent;

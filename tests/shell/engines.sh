@@ -34,6 +34,13 @@ for bases in 'rk4, rk2' 'avf2, rk4, verlet, midpoint'; do
     grep -q '"engine":"native"' out || fail "$bases in turns: not native: $(cat err)"
     cmp -s interpreted_turns native_turns || fail "$bases in turns: the engines' numbers differ"
 done
+# located breaks: one kernel for all sides, in loops that end there, and in a scheme that has none
+for scheme in verlet gauss4 avf2; do
+    numbers interpreted system 'H=p^2/2 + if(q > 0, 4, 1)*q^2/2 + floor(3*q)' q=0 p=1 until=20 "scheme=$scheme" >interpreted_breaks
+    numbers native system 'H=p^2/2 + if(q > 0, 4, 1)*q^2/2 + floor(3*q)' q=0 p=1 until=20 "scheme=$scheme" >native_breaks
+    grep -q '"engine":"native"' out || fail "breaks with $scheme: not native: $(cat err)"
+    cmp -s interpreted_breaks native_breaks || fail "breaks with $scheme: the engines' numbers differ"
+done
 rm -r "$XDG_CACHE_HOME/geomint"
 numbers native kepler-space until=20 scheme=verlet >native
 

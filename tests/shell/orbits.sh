@@ -44,6 +44,15 @@ holds '"no derivative" in d["reasons"]["lyapunov1"]'
 refused 1 "named twice" run lorenz --measure lyapunov_spectrum,lyapunov1
 refused 1 "no observable lyapunov_spectrum" run burgers --measure lyapunov_spectrum
 
+# values at a section that is at an event: the speed after each push tends to sqrt(c/(1 - rho^2))
+status 0 sweep clock c=.1,.2 scheme=gauss8 until=600 --values v:1 --at section --table ticks.csv
+python3 -c '
+import csv, math
+rho = math.exp(-2 * math.pi * .05 / math.sqrt(1 - .05**2))
+rows = list(csv.DictReader(open("ticks.csv")))
+assert len(rows) == 2 and all(abs(float(r["v"]) - math.sqrt(float(r["c"]) / (1 - rho**2))) < 1e-9 for r in rows), rows
+' || fail "values at an event: $(cat ticks.csv)"
+
 # ---- periodic orbits of a flow ----
 
 # the numbers are of an integrator of order 8 with the tolerance 1e-13, and Newton's method

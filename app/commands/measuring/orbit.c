@@ -202,7 +202,7 @@ static void print_json(const struct work *work)
 static const char *multipliers_of(const struct work *work, int digits)
 {
     const struct gm_periodic *orbit = &work->orbit;
-    const char *text = "";
+    const char *text = orbit->count == 0 ? "none" : "";
     for (size_t i = 0; i < orbit->count; i++) {
         const double re = orbit->multipliers[i], im = orbit->multipliers[orbit->count + i];
         if (im == 0) {

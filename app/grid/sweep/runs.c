@@ -351,8 +351,24 @@ struct following {
     struct gm_drive *drive;
     int64_t steps;
     struct series *series;
-    double last[3][2]; /* t and value of the last steps, the newest first */
+    double last[3][2];     /* t and value of the last steps, the newest first */
+    struct gm_track track; /* the section, with its passages since the last step */
+    struct gm_entries entries;
+    struct gm_behind behind;
 };
+
+/* gm_event_witness.see: a section may be passed before an event, and be at one. */
+static void see_event(void *data, const struct gm_event_part *part)
+{
+    struct following *following = data;
+    struct gm_view before = gm_lane_view(following->drive->lane), after = before;
+    before.state = part->before;
+    after.state = part->after;
+    before.t = after.t = part->before[before.problem->n];
+    gm_entries_event(&following->entries, &following->track, part->event, &before, &after,
+                     &following->behind);
+    gm_behind_note(&following->behind, &after);
+}
 
 static void push(const struct following *following, double t, double value)
 {
@@ -379,19 +395,20 @@ static void follow(struct gm_arena *arena, void *data)
     const struct gm_sweep *sweep = following->sweep;
     struct gm_lane *lane = following->drive->lane;
     char message[GM_MESSAGE];
-    struct gm_track track = {0};
-    struct gm_entries entries = {0};
-    struct gm_behind behind = {0};
+    struct gm_track *track = &following->track;
+    struct gm_entries *entries = &following->entries;
+    struct gm_behind *behind = &following->behind;
     const struct gm_view start = gm_lane_view(lane);
     if (sweep->place == GM_AT_SECTION) {
-        track = sweep->scene->tracks[gm_scene_section(sweep->scene)];
-        track.numbers = gm_active_count(&lane->problem);
-        track.record = record;
-        track.each = false;
-        track.bound = PASSAGES;
-        gm_entries_open(arena, &entries, &track, &start, &behind);
-        gm_entries_record(&entries, &track, &start, &behind);
-        gm_behind_note(&behind, &start);
+        *track = sweep->scene->tracks[gm_scene_section(sweep->scene)];
+        track->numbers = gm_active_count(&lane->problem);
+        track->record = record;
+        track->each = false;
+        track->bound = PASSAGES;
+        gm_entries_open(arena, entries, track, &start, behind);
+        gm_entries_record(entries, track, &start, behind);
+        gm_behind_note(behind, &start);
+        lane->run->witness = (struct gm_event_witness){see_event, following};
     } else if (sweep->place == GM_AT_STEP && !lane->scheme->family->adaptive &&
                !(lane->problem.events && lane->problem.events->ends_runs)) {
         gm_drive_to(following->drive, following->steps - (int64_t)sweep->kept, false, message);
@@ -411,14 +428,14 @@ static void follow(struct gm_arena *arena, void *data)
         } else if (sweep->place == GM_AT_MAXIMUM) {
             push_maximum(following);
         } else {
-            gm_entries_record(&entries, &track, &view, &behind);
-            gm_behind_note(&behind, &view);
-            for (size_t i = 0; i < entries.count; i++) {
-                view.state = entries.values + i * entries.width;
-                view.t = entries.times[i];
+            gm_entries_record(entries, track, &view, behind);
+            gm_behind_note(behind, &view);
+            for (size_t i = 0; i < entries->count; i++) {
+                view.state = entries->values + i * entries->width;
+                view.t = entries->times[i];
                 push(following, view.t, value_of(sweep, &view));
             }
-            entries.count = 0;
+            entries->count = 0;
         }
     }
 }

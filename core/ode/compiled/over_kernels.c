@@ -15,6 +15,8 @@
        otherwise   K(field)(y, f, parameters)
        both        K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass;
                    with GM_WITHOUT_JACOBIAN, which no implicit family takes, none
+       with GM_SURFACES, a constant   K(surfaces)(y, inside, parameters) in the scalar pass, as many numbers, which
+                   are above 0 while no break is reached
    The operations, and so the bits, are the same for every instruction set: nothing is contracted. */
 
 #include "core/ode/kernel/loops.h"
@@ -138,6 +140,9 @@ static void shear(const struct gm_problem *problem, size_t piece, double h, doub
 const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
     .field = field,
     .shear = GM_SHEAR,
+#ifdef GM_SURFACES
+    .watches = true,
+#endif
 #ifndef GM_WITHOUT_JACOBIAN
     .jacobian = jacobian,
 #endif

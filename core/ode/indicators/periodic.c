@@ -254,7 +254,7 @@ static void find_multipliers(struct search *search)
     for (size_t i = 0; i < n * n; i++) {
         search->matrix[i] = search->frame[i % n * search->stride + i / n];
     }
-    orbit->count = gm_eigenvalues(search->matrix, n, re, im) ? n : 0;
+    orbit->count = isfinite(orbit->residual) && gm_eigenvalues(search->matrix, n, re, im) ? n : 0;
     for (size_t i = 1; i < orbit->count; i++) {
         const double x = re[i], y = im[i];
         size_t at = i;
@@ -375,7 +375,8 @@ const char *gm_periodic_kind(const struct gm_periodic *orbit)
         near = near || (fabs(modulus - 1) <= close && fabs(im[i]) <= close);
     }
     const bool preserved = fabs(volume) <= close, outside = farthest > 1 + close;
-    return orbit->count <= orbit->by_structure || (near && !outside) ? "parabolic"
+    return orbit->count == 0                                           ? "none"
+           : orbit->count <= orbit->by_structure || (near && !outside) ? "parabolic"
            : !preserved && !outside  ? farthest < 1 - close ? "stable" : "parabolic"
            : !outside                ? "elliptic"
            : !preserved || real == 0 ? "unstable"

@@ -157,12 +157,20 @@ GM_ADD(add, real)
 GM_ADD(add_some, some)
 #undef GM_ADD
 
-/* Returns, for K(somewhere_beyond), the distance of a block's numbers from 0, by their bits. */
-GM_INLINE mask K(block_distance)(const struct K(block) * block, double limit)
+/* Returns, for K(somewhere_beyond), the distance of a block's numbers from 0, by their bits; beyond all limits if a
+   surface that the task watches is not ahead of them. */
+GM_INLINE mask K(block_distance)(const struct K(block) * block, const struct gm_task *task)
 {
-    mask farthest = K(distance)(block->y[0], limit);
+    mask farthest = K(distance)(block->y[0], task->limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {
-        farthest = K(farther)(farthest, K(distance)(block->y[c], limit));
+        farthest = K(farther)(farthest, K(distance)(block->y[c], task->limit));
     }
+#if defined(GM_SURFACES) && defined(GM_PASS_SCALAR)
+    double inside[GM_SURFACES];
+    K(surfaces)(block->y, inside, task->problem->parameters);
+    for (int i = 0; i < GM_SURFACES; i++) {
+        farthest |= task->watches & !(inside[i] > 0);
+    }
+#endif
     return farthest;
 }

@@ -67,7 +67,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 #pragma GCC unroll 8
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                farthest = K(farther)(farthest, K(block_distance)(&block[b], task->limit));
+                farthest = K(farther)(farthest, K(block_distance)(&block[b], task));
             }
         }
         if (K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit)) {
@@ -120,7 +120,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {
             *solved &= GM_STEP(row, &block[b], task->dt, parameters, compensated, stiff, counts);
-            *farthest = K(farther)(*farthest, K(block_distance)(&block[b], task->limit));
+            *farthest = K(farther)(*farthest, K(block_distance)(&block[b], task));
         }
     } while (--left > 0);
 }

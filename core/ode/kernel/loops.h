@@ -36,6 +36,7 @@ struct gm_loops {
     void (*shear)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
     /* H if it is a sum as long as the field's; NULL: only the Hamiltonian evaluates it */
     double (*energy)(const struct gm_problem *problem, const double *y);
+    bool watches;                         /* gm_task.watches has an effect */
     gm_loop *over_kernels[GM_OVER_COUNT]; /* NULL: the problem lacks what the family needs */
 };
 

@@ -38,7 +38,8 @@ struct gm_user_data {
     struct gm_ode ode;
     struct gm_loops loops, interpreted, free; /* free: without constraints */
     const struct gm_loops *taken; /* the source of compiled functions in `loops`; NULL: all are interpreted */
-    void *note;                   /* the compiler's note */
+    const struct gm_loops *frozen_loops; /* problems with frozen switches take these */
+    void *note;                          /* the compiler's note */
     struct gm_split split;
     struct gm_hamiltonian hamiltonian;
     struct gm_volume volume;

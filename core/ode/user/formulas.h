@@ -87,7 +87,8 @@ struct gm_user_frozen {
     struct gm_user_model model;
     struct gm_break *list;
     size_t count;
-    gm_node_id *surfaces;         /* [count], g of each */
+    gm_node_id *surfaces; /* [count], g of each */
+    gm_node_id *inside;   /* [count], above 0 while g has not left the side, or the interval, of its mode */
     struct gm_user_event *events; /* [count], with the slopes of g */
 };
 

@@ -27,6 +27,7 @@ static const struct {
     [GM_KERNEL_JACOBIAN] = {"K(jacobian)", "const double *y, double f[][GM_COMPONENTS]", false, true},
     [GM_KERNEL_ENERGY] = {"K(energy)", "const double *y, double *f", false, true},
     [GM_KERNEL_POTENTIAL] = {"K(potential)", "const double *y, double *f", false, true},
+    [GM_KERNEL_SURFACES] = {"K(surfaces)", "const double *y, double *f", false, true},
 };
 
 /* Finds the text before, between and after an operation's operands. */
@@ -265,6 +266,9 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
         fprintf(out, "#define GM_COMPONENTS %zu\n%s%s#include \"core/ode/kernel/formula.h\"\n",
                 source->components, separable ? "#define GM_SEPARABLE\n" : "",
                 wanted[GM_KERNEL_JACOBIAN] ? "" : "#define GM_WITHOUT_JACOBIAN\n");
+        if (wanted[GM_KERNEL_SURFACES]) {
+            fprintf(out, "#define GM_SURFACES %zu\n", source->tapes[GM_KERNEL_SURFACES]->outputs);
+        }
         put_layout(out);
         for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
             known = known && (!wanted[k] || put_function(out, source, (enum gm_kernel_function)k, made));

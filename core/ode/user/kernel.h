@@ -14,6 +14,7 @@ enum gm_kernel_function {
     GM_KERNEL_JACOBIAN,
     GM_KERNEL_ENERGY,
     GM_KERNEL_POTENTIAL, /* V, V', V'' */
+    GM_KERNEL_SURFACES,  /* of frozen switches: above 0 on their side */
     GM_KERNEL_FUNCTIONS
 };
 

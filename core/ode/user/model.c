@@ -269,6 +269,19 @@ static void freeze_all(struct gm_arena *arena, struct gm_user_frozen *frozen)
     frozen->count = freezing.full ? 0 : freezing.count;
 }
 
+/* s g, or (g - k)(k + 1 - g). */
+static gm_node_id inside(struct gm_formula *graph, const struct gm_break *one)
+{
+    const gm_node_id mode = gm_formula_variable(graph, one->variable), g = one->surface;
+    if (!one->whole) {
+        return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, mode, g);
+    }
+    const gm_node_id next = gm_formula_apply(graph, GM_OPERATION_ADD, mode, gm_formula_constant(graph, 1));
+    return gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
+                            gm_formula_apply(graph, GM_OPERATION_SUBTRACT, g, mode),
+                            gm_formula_apply(graph, GM_OPERATION_SUBTRACT, next, g));
+}
+
 static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
 {
     struct gm_user_frozen *frozen = gm_arena_take(arena, 1, sizeof *frozen);
@@ -280,6 +293,7 @@ static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
     bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked);
     memset(marked, true, system->n + 1);
     frozen->surfaces = gm_arena_take(arena, count + 1, sizeof *frozen->surfaces);
+    frozen->inside = gm_arena_take(arena, count + 1, sizeof *frozen->inside);
     frozen->events = gm_arena_take(arena, count + 1, sizeof *frozen->events);
     for (size_t i = 0; i < count; i++) {
         struct gm_break *one = &frozen->list[i];
@@ -291,6 +305,7 @@ static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
             gm_arena_print(arena, "%s(%s)", one->whole ? "floor" : "sign", one->text);
         free(text);
         frozen->surfaces[i] = one->surface;
+        frozen->inside[i] = inside(&system->graph, one);
         event->slopes =
             gm_sparse_jacobian(arena, &system->graph, &one->surface, 1, marked, system->variable_count);
         event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);

@@ -433,6 +433,7 @@ static bool is_trace_free(struct gm_user_data *self, const struct gm_problem *pr
 
 static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes);
 static void melt(void *frozen);
+static bool watches(const struct gm_problem *motion);
 
 struct opening {
     struct gm_problem *problem;
@@ -510,6 +511,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     gm_user_events_open(problem);
     self->events.freeze = freeze;
     self->events.melt = melt;
+    self->events.watches = watches;
     if (system->tangents == 0 && !constrained) {
         gm_user_parts_open(problem);
     }
@@ -560,8 +562,21 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
         opened->name = problem->name;
         opened->bound = problem->bound;
         opened->events = NULL;
+        struct gm_user_data *self = gm_user_data_of(opened);
+        gm_user_compile(self, &self->tapes[GM_KERNEL_SURFACES], frozen->inside, frozen->count, opened->n);
     }
     return good;
+}
+
+/* Returns problem number i, as the last one in use, with the loops that it may take. */
+static const struct gm_problem *latest(const struct gm_problem *problem, struct frozen_problems *kept,
+                                       size_t i)
+{
+    const struct gm_loops *loops = gm_user_data_of(problem)->frozen_loops;
+    if (gm_user_data_of(&kept->list[i])->taken != loops) {
+        gm_user_problem_take(&kept->list[i], loops);
+    }
+    return &kept->list[kept->latest = i];
 }
 
 static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
@@ -570,7 +585,7 @@ static const struct gm_problem *freeze(const struct gm_problem *problem, void **
     struct frozen_problems *kept = *frozen = *frozen ? *frozen : calloc(1, sizeof *kept);
     for (size_t i = 0; kept && i < KEPT; i++) {
         if (kept->list[i].n > 0 && memcmp(kept->modes[i], modes, size) == 0) {
-            return &kept->list[kept->latest = i];
+            return latest(problem, kept, i);
         }
     }
     if (!kept) {
@@ -584,7 +599,13 @@ static const struct gm_problem *freeze(const struct gm_problem *problem, void **
         return NULL;
     }
     memcpy(kept->modes[kept->next], modes, size);
-    return &kept->list[kept->latest = kept->next];
+    return latest(problem, kept, kept->next);
+}
+
+static bool watches(const struct gm_problem *motion)
+{
+    const struct gm_loops *taken = gm_user_data_of(motion)->taken;
+    return taken && taken->watches;
 }
 
 static void melt(void *frozen)
@@ -630,7 +651,8 @@ static bool tapes_of_kernels(struct gm_user_data *self, const struct gm_tape *ta
                has[GM_KERNEL_FUNCTIONS] = {[GM_KERNEL_FIELD] = true,
                                            [GM_KERNEL_VELOCITY] = splits,
                                            [GM_KERNEL_FORCE] = splits,
-                                           [GM_KERNEL_JACOBIAN] = self->model->has_jacobian};
+                                           [GM_KERNEL_JACOBIAN] = self->model->has_jacobian,
+                                           [GM_KERNEL_SURFACES] = self->tapes[GM_KERNEL_SURFACES].count > 0};
     for (size_t i = 0; i < GM_KERNEL_FUNCTIONS; i++) {
         tapes[i] = has[i] ? gm_late_tape(&self->tapes[i]) : NULL;
         if (has[i] && !tapes[i]) {
@@ -676,6 +698,11 @@ void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loo
         self->loops.jacobian = loops->jacobian ? loops->jacobian : self->interpreted.jacobian;
         memcpy(self->loops.over_kernels, loops->over_kernels, sizeof self->loops.over_kernels);
     }
+}
+
+void gm_user_problem_take_frozen(struct gm_problem *problem, const struct gm_loops *loops)
+{
+    gm_user_data_of(problem)->frozen_loops = loops;
 }
 
 void gm_user_problem_take_compiled(struct gm_problem *problem, int over)

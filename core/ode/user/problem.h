@@ -34,6 +34,8 @@ void **gm_user_problem_note(const struct gm_problem *problem);
 /* From the next step on these loops advance the problem, as far as they go, and outlive it. NULL: the
    interpreter again, for a run that was opened with it. The numbers stay the same. */
 void gm_user_problem_take(struct gm_problem *problem, const struct gm_loops *loops);
+/* Lets all motions with frozen switches take such loops from now on, whose text is that of one of them. */
+void gm_user_problem_take_frozen(struct gm_problem *problem, const struct gm_loops *loops);
 /* Takes the loops that the build compiled of these formulas, if they exist; `over` is the family, as in
    gm_user_problem_kernel. */
 void gm_user_problem_take_compiled(struct gm_problem *problem, int over);

@@ -649,12 +649,16 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
         most = 0;
     }
     const bool disc = lanes[0]->problem.m > 3 && own_of(lanes[0])->shape == GM_SHAPE_DISC;
+    const struct gm_events *events = lanes[0]->problem.events;
     for (int kept = 1; kept >= 0; kept--) {
         for (size_t i = 0; i < scene->observable_count && most > 0; i++) {
             const struct gm_observable *observable = &scene->observables[i];
             const bool of_disc = strncmp(observable->key, "area", 4) == 0;
             const bool swings = strcmp(observable->key, "energy") == 0; /* it does not compare schemes */
-            if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings) {
+            const bool repeats = events && events->count - events->breaks == 1 &&
+                                 strncmp(observable->key, "events_", 7) == 0; /* the number of all events */
+            if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings ||
+                repeats) {
                 continue;
             }
             draw_number(picture, lanes, count, observable, NULL);
