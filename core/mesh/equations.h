@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of a step on a mesh, and the workspace that they share with Newton's method (core/mesh/solver.h). */
+/* The equations of a step on a mesh, and the workspace that they share with Newton's method (core/mesh/solver.c). */
 #ifndef GM_CORE_MESH_EQUATIONS_H
 #define GM_CORE_MESH_EQUATIONS_H
 
