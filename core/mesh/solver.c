@@ -12,7 +12,8 @@
 #include "core/basics.h"
 #include "core/functions/functions.h"
 
-enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
+/* MANY: after more iterations the factors are made again, which costs as much as about ten iterations. */
+enum { MANY = 4, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
 static const double tolerance = 1e-11; /* change of unknowns, when solved */
 static const double contracts = 0.2;   /* the ratio of changes that gives the remaining error */

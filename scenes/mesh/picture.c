@@ -272,48 +272,46 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     struct gm_panel *panel =
         gm_panel_add(picture, GM_PLACE_GRAPH,
                      of_energy ? "largest error of the energy" : "largest error at any node and step");
-    double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
-    double *largest = gm_picture_memory(picture, count * sizeof *largest);
-    double *points = gm_picture_memory(picture, 2 * count * sizeof *points),
-           *over = gm_picture_memory(picture, count * sizeof *over);
-    if (!largest || !points || !over || error < 0) {
+    double *all = gm_picture_memory(picture, 4 * count * sizeof *all), *line = all ? all + 2 * count : NULL;
+    if (!all || error < 0) {
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        over[i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
-        largest[i] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
-        gm_range_add(&low_x, &high_x, over[i]);
-        gm_range_add(&low_y, &high_y, largest[i]);
-    }
-    gm_range_round(&low_y, &high_y, GM_LOG);
-    high_y *= of_energy ? 10 : 1; /* room for names */
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){
-        .label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
-    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
+    panel->x = (struct gm_axis){.label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = 1, .high = 0};
+    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
+    for (size_t i = 0; i < count; i++) {
+        all[2 * i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
+        all[2 * i + 1] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
+        gm_range_add(&panel->x.low, &panel->x.high, all[2 * i]);
+        gm_range_add(&panel->y.low, &panel->y.high, all[2 * i + 1]);
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
+    panel->x.low /= 1.3;
+    panel->x.high *= 1.3;
+    panel->y.high *= of_energy ? 10 : 1; /* room for names */
     size_t series = 0;
     for (size_t i = 0; i < count; i++) {
-        size_t made = 0, k = 0;
-        while (lanes[k]->scheme != lanes[i]->scheme) {
-            k++;
-        }
-        for (; k >= i && k < count; k++) { /* from the scheme's first lane on */
-            if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
-                points[2 * made] = over[k];
-                points[2 * made++ + 1] = largest[k];
+        size_t made = 0, first = count;
+        for (size_t k = 0; k < count; k++) {
+            if (lanes[k]->scheme == lanes[i]->scheme) {
+                first = first < k ? first : k;
+                line[2 * made] = all[2 * k];
+                line[2 * made + 1] = all[2 * k + 1];
+                made += isfinite(all[2 * k + 1]);
             }
         }
-        if (made == 0) {
+        if (first < i || made == 0) {
             continue;
         }
         const enum gm_role role = gm_lane_role(series);
-        const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made,
+        const bool under = of_energy && series % 2; /* lines may coincide */
+        const double *at = line + (under ? 2 * made - 2 : 0), room = under ? -0.05 : 0.03;
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, line, made,
                      false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, line, made);
         gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
-                     at[1] * gm_pow(high_y / low_y, of_energy && series % 2 ? -0.05 : 0.03), GM_ANCHOR_LEFT,
+                     at[1] * gm_pow(panel->y.high / panel->y.low, room), GM_ANCHOR_LEFT,
                      lanes[i]->scheme->title);
         series++;
     }
