@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for the equations of one step on a mesh: with factors that are kept, then, where that
    fails, with new ones and shortened steps, from one first guess after the other. */
-#include "core/linear/extrapolation.h"
-#include "core/mesh/families/families.h"
+#include "core/mesh/equations.h"
 
 #include <float.h>
 #include <math.h>
@@ -11,8 +10,9 @@
 
 #include "core/basics.h"
 #include "core/functions/functions.h"
+#include "core/linear/extrapolation.h"
 
-/* MANY: after more iterations the factors are made again, which costs as much as about ten iterations. */
+/* MANY: after more iterations the factors are recomputed, which costs as much as about ten of them. */
 enum { MANY = 4, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
 static const double tolerance = 1e-11; /* change of unknowns, when solved */

@@ -52,16 +52,15 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
         if (!free || !gm_mesh_mass(&mesh, y, &rank, &condition) || rank >= 2 * (double)points) {
             return true;
         }
-        /* nodes alone have a field that is 0, whose mass is regular */
         return mesh.alone
                    ? gm_refuse(sentence,
-                               "cell: has no inertia for all nodes: the mass matrix has rank %g of %zu",
-                               rank - (double)points, points)
-                   : gm_refuse(sentence,
-                               "%g of %zu nodes are straight: the mass matrix has rank %g of %zu; a "
-                               "line cell: %smakes it regular",
-                               2 * (double)points - rank, points, rank, 2 * points,
-                               mesh.cell ? "like 0.05*(d_t/d)^2 " : "");
+                               "cell: the mass matrix of the nodes is singular: not all have inertia")
+                   : gm_refuse(
+                         sentence,
+                         "%g of %zu nodes are straight: the mass matrix has rank %g of %zu; a line cell: "
+                         "%smakes it regular",
+                         2 * (double)points - rank, points, rank, 2 * points,
+                         mesh.cell ? "like 0.05*(d_t/d)^2 " : "");
     }
     const char *name = lane->owner->system.variables[0].name;
     double u, slope, rate;
