@@ -81,7 +81,7 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
 /* The mass matrix alone. */
 void gm_elements_mass(const struct gm_elements *stage, size_t element, double mass[4][4]);
 
-/* Momenta, and forces, at node k = 1 ... N. */
+/* Momenta at node k = 1 ... N. */
 static inline double gm_momentum_u(const struct gm_elements *stage, size_t k)
 {
     return stage->momentum_u1[k - 1] + stage->momentum_u0[k];
@@ -91,16 +91,6 @@ static inline double gm_momentum_v(const struct gm_elements *stage, size_t k)
 {
     return -(stage->slope[k - 1] * stage->momentum_u1[k - 1] + stage->slope[k] * stage->momentum_u0[k]) +
            (stage->cells ? stage->cell_v1[k - 1] + stage->cell_v0[k] : 0);
-}
-
-static inline double gm_force_y(const struct gm_elements *stage, size_t k)
-{
-    return stage->force_y1[k - 1] + stage->force_y0[k];
-}
-
-static inline double gm_force_x(const struct gm_elements *stage, size_t k)
-{
-    return stage->force_d[k - 1] - stage->force_d[k];
 }
 
 #endif

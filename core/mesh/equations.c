@@ -112,26 +112,17 @@ static void force(const struct gm_elements *stage, const double *restrict slack,
     }
 }
 
-/* The forces at the nodes at stage i, of which X takes part in those of y alone if it has no momenta. */
+/* The forces at the nodes at stage i; without multipliers the slack is 0. */
 static void find_forces(struct gm_mesh_solver *solver, const double *unknowns, size_t i)
 {
     const struct gm_mesh_layout *of = &solver->of;
-    const struct gm_elements *stage = &solver->stage[i];
     const size_t points = solver->mesh.points;
-    double *out = solver->forces[i];
-    if (of->multiplier > 0) {
-        const bool acts = i + 1 < solver->stages;
-        if (acts) {
-            gm_nodes_spread(unknowns, points, of->per_node, of->multiplier + i, solver->share[i]);
-        }
-        force(stage, solver->slack, solver->row->tableau->kappa[i], acts ? solver->share[i] : NULL, points,
-              out);
-        return;
+    const bool acts = of->multiplier > 0 && i + 1 < solver->stages;
+    if (acts) {
+        gm_nodes_spread(unknowns, points, of->per_node, of->multiplier + i, solver->share[i]);
     }
-    for (size_t k = 1; k <= points; k++) {
-        out[2 * k - 2] = gm_force_y(stage, k);
-        out[2 * k - 1] = of->pushed ? gm_force_x(stage, k) : 0;
-    }
+    force(&solver->stage[i], solver->slack, solver->row->tableau->kappa[i], acts ? solver->share[i] : NULL,
+          points, solver->forces[i]);
 }
 
 /* It is compiled for each number of stages, which unrolls its inner loops. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The equations of a step on a mesh, and the workspace that they share with Newton's method (core/mesh/solver.h). */
+/* The equations of a step on a mesh, the workspace that they share with Newton's method (core/mesh/solver.c), and steps. */
 #ifndef GM_CORE_MESH_EQUATIONS_H
 #define GM_CORE_MESH_EQUATIONS_H
 
 #include "core/mesh/nodes.h"
-#include "core/status.h"
+#include "core/scheme.h"
 
 /* Partitioned Runge-Kutta coefficients: a for places, abar for momenta, the same weights b
    (Hairer, Lubich & Wanner 2006, chapters II and IV; Hairer & Wanner 1996, IV.5). */
@@ -76,5 +76,22 @@ bool gm_step_residual(struct gm_mesh_solver *solver, const double *unknowns);
 void gm_step_matrix(struct gm_mesh_solver *solver, const struct gm_assembly *assembly);
 /* Finds the end of the step from its solved stages, in solver->ends, and the largest multiplier. */
 enum gm_status gm_step_end(struct gm_mesh_solver *solver, double *multiplier);
+
+/* The steps of all schemes on meshes: the same number of unknowns at every node, node by node, so that
+   matrices are banded.
+
+   The LU factors are kept over iterations and steps until they converge too slowly. They are derived data:
+   what they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed
+   recomputes the same factors and continues with the same bits. First guesses are extrapolated from the last
+   six steps. */
+
+/* The functions that all families share. */
+size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
+enum gm_status gm_mesh_restart(const struct gm_task *task);
+/* Makes steps, in place if task->out is task->y. */
+struct gm_progress gm_mesh_loop(const struct gm_task *task);
+void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_mesh_workspace_close(void *workspace);
+void gm_mesh_workspace_reset(void *workspace);
 
 #endif

@@ -109,6 +109,13 @@ static inline const struct gm_moving_mesh *gm_moving_mesh_of(const struct gm_pro
     return problem->facets;
 }
 
+static inline struct gm_mesh gm_mesh_of_problem(const struct gm_problem *problem)
+{
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(problem)->describe(problem, &mesh);
+    return mesh;
+}
+
 /* The mesh is uniform, known, equidistributes a density, or may be any; the last two start alike. */
 enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_GIVEN, GM_MESH_MOVING, GM_MESH_FREE };
 
@@ -145,7 +152,7 @@ static inline double gm_mesh_energy(const struct gm_mesh *mesh, const double *st
    GM_DENSE_POINTS nodes, or when out of memory. */
 enum { GM_DENSE_POINTS = 255 };
 bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix);
-/* The rank of M, from eigenvalues above 1e-12 of the largest, and its condition; or false as before. det M is a product of
+/* The rank of M, from eigenvalues whose size is above 1e-12 of the largest, and its condition; or false as before. det M is a product of
    squared differences of slopes: every straight node takes 1 off the rank (their proposition 7). */
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newton's method for the equations of one step on a mesh: with factors that are kept, then, where that
    fails, with new ones and shortened steps, from one first guess after the other. */
-#include "core/mesh/solver.h"
+#include "core/mesh/equations.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,8 +10,10 @@
 
 #include "core/basics.h"
 #include "core/functions/functions.h"
+#include "core/linear/extrapolation.h"
 
-enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
+/* MANY: after more iterations the factors are recomputed, which costs as much as about ten of them. */
+enum { MANY = 4, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
 static const double tolerance = 1e-11; /* change of unknowns, when solved */
 static const double contracts = 0.2;   /* the ratio of changes that gives the remaining error */
@@ -39,16 +41,9 @@ static double stagnation(const struct gm_mesh_solver *solver)
     return fmax(1e-9, 10 * solver->noise);
 }
 
-static struct gm_mesh mesh_of(const struct gm_problem *problem)
-{
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(problem)->describe(problem, &mesh);
-    return mesh;
-}
-
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct gm_mesh mesh = mesh_of(problem);
+    const struct gm_mesh mesh = gm_mesh_of_problem(problem);
     const size_t n = mesh.points * gm_mesh_layout_of(scheme->coefficients, &mesh).per_node;
     return MEMORY_HEAD + (PAST + 1) * n + 4 * mesh.points + scheme->family->adaptive;
 }
@@ -74,7 +69,7 @@ void *gm_mesh_workspace_open(const struct gm_problem *problem, const struct gm_s
         return NULL;
     }
     const struct gm_mesh *mesh = &solver->mesh;
-    solver->mesh = mesh_of(problem);
+    solver->mesh = gm_mesh_of_problem(problem);
     solver->row = scheme->coefficients;
     solver->of = gm_mesh_layout_of(solver->row, mesh);
     solver->kind = solver->of.smoothed ? GM_MESH_FREE : solver->row->kind;
@@ -157,23 +152,17 @@ static double *past(double *memory, size_t n, size_t back)
     return memory + MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps, with binomial coefficients whose signs alternate: 1 repeats the last one, 4
-   is cubic, 6 quintic. */
-static void extrapolate(struct gm_mesh_solver *solver, double *memory, size_t order)
+/* The first guess from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. */
+static void guess(struct gm_mesh_solver *solver, double *memory, size_t order)
 {
-    const size_t n = solver->matrix.n;
-    double *out = solver->unknowns, weight = -1;
-    if (order == 0) {
-        gm_step_guess(solver, out);
-        return;
+    const double *steps[PAST];
+    for (size_t back = 0; back < PAST; back++) {
+        steps[back] = past(memory, solver->matrix.n, back);
     }
-    memset(out, 0, n * sizeof *out);
-    for (size_t k = 1; k <= order; k++) {
-        const double *back = past(memory, n, k - 1);
-        weight *= -(double)(order - k + 1) / (double)k;
-        for (size_t i = 0; i < n; i++) {
-            out[i] += weight * back[i];
-        }
+    if (order == 0) {
+        gm_step_guess(solver, solver->unknowns);
+    } else {
+        gm_extrapolate(steps, order, solver->unknowns, solver->matrix.n);
     }
 }
 
@@ -342,11 +331,11 @@ static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const
     const size_t known = (size_t)memory[MEMORY_PAST];
     restore(solver, memory);
     gm_step_place(solver, state, t, h);
-    extrapolate(solver, memory, known);
+    guess(solver, memory, known);
     enum outcome outcome = iterate(solver, memory, progress);
     bool tangled = false;
     for (size_t order = known; outcome != SOLVED; order--) {
-        extrapolate(solver, memory, order);
+        guess(solver, memory, order);
         outcome = iterate_fully(solver, memory, progress);
         tangled |= outcome == TANGLED;
         if (order <= 1) {
@@ -393,19 +382,15 @@ static void scale(struct gm_mesh_solver *solver, double h)
 }
 
 /* The rate of log sigma of time-symmetric steps (core/mesh/families/adaptive.c). */
-static double growth(const struct gm_mesh *mesh, const double *state)
+static double growth(struct gm_mesh_solver *solver, const double *state)
 {
-    const size_t points = mesh->points;
-    const double *x = state + points, *v = state + 3 * points;
-    const double coarse = 0.208 * mesh->length / (double)(points + 1);
-    double x0 = mesh->first, v0 = 0, sum = gm_pow(coarse, -4), change = 0;
-    for (size_t e = 0; e <= points; e++) {
-        const double x1 = e < points ? x[e] : mesh->first + mesh->length, v1 = e < points ? v[e] : 0;
-        const double d = x1 - x0, weight = 1 / (d * d * d * d);
+    const struct gm_elements *at = &solver->ends;
+    double sum = gm_pow(0.208 * solver->mesh.length / (double)at->count, -4), change = 0;
+    gm_elements_place(&solver->ends, state);
+    for (size_t e = 0; e < at->count; e++) {
+        const double d = at->x[e + 1] - at->x[e], weight = 1 / (d * d * d * d);
         sum += weight;
-        change -= weight * (v1 - v0) / d;
-        x0 = x1;
-        v0 = v1;
+        change -= weight * (at->v[e + 1] - at->v[e]) / d;
     }
     return change / (2 * sum);
 }
@@ -429,7 +414,7 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
         memcpy(state + 3 * mesh->points, task->out + mesh->points, size);
     }
     while (progress.done < task->steps && (!adaptive || progress.t < task->until)) {
-        const double half = adaptive ? *rho + task->dt / 2 * growth(mesh, state) : 1, h = task->dt / half,
+        const double half = adaptive ? *rho + task->dt / 2 * growth(solver, state) : 1, h = task->dt / half,
                      t = task->t0 + (double)(task->n + progress.done) * task->dt;
         if (!(half > 1e-3 && half < 1e3)) {
             progress.status = GM_STEP_COLLAPSE;
@@ -444,7 +429,7 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
             break;
         }
         if (adaptive) {
-            *rho = half + task->dt / 2 * growth(mesh, state);
+            *rho = half + task->dt / 2 * growth(solver, state);
             progress.t += h;
         }
         progress.done++;

@@ -11,7 +11,7 @@
 
 /* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1 in this many steps, which for
    arclength is alpha growing (Tyranowski & Desbrun 2019, section 5.2); they are halved when they are too long. */
-enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
+enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64 };
 
 struct bench {
     struct gm_elements stage;
@@ -95,31 +95,6 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
     return reached >= 1;
 }
 
-/* Many nodes: start from the mesh with half as many. */
-static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_profile *profile,
-                   const void *context)
-{
-    if (mesh->points <= DIRECT) {
-        return continue_to(bench, mesh, profile, context);
-    }
-    struct gm_mesh coarse = *mesh;
-    coarse.points = mesh->points / 2;
-    struct bench under;
-    if (!bench_open(&under, &coarse)) {
-        return false;
-    }
-    const bool good = refine(&under, &coarse, profile, context);
-    for (size_t k = 1; good && k <= mesh->points; k++) {
-        const double at = (double)k * (double)(coarse.points + 1) / (double)(mesh->points + 1);
-        const size_t node = (size_t)at;
-        const double *x = under.stage.x;
-        bench->stage.x[k] = x[node] + (at - (double)node) * (x[node + 1] - x[node]);
-    }
-    bench_close(&under);
-    return good &&
-           gm_nodes_equidistribute(&bench->stage, mesh, profile, context, &bench->matrix, bench->change);
-}
-
 bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state)
 {
@@ -137,7 +112,7 @@ bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_p
                points * sizeof *bench.change);
         profile(context, stage->x + 1, points, stage->y + 1, stage->u + 1, stage->v + 1);
     } else {
-        good = refine(&bench, mesh, profile, context) &&
+        good = continue_to(&bench, mesh, profile, context) &&
                (drifts || gm_nodes_set_in_motion(stage, &bench.matrix, bench.change));
     }
     if (drifts) {
@@ -310,12 +285,12 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
         matrix && gm_mesh_mass_matrix(mesh, state, matrix) && gm_eigenvalues(matrix, n, values, values + n);
     double least = INFINITY, largest = 0;
     for (size_t i = 0; good && i < n; i++) {
-        largest = fmax(largest, values[i]);
+        largest = fmax(largest, fabs(values[i]));
         least = fmin(least, fabs(values[i]));
     }
     *rank = 0;
     for (size_t i = 0; good && i < n; i++) {
-        *rank += values[i] > 1e-12 * largest;
+        *rank += fabs(values[i]) > 1e-12 * largest;
     }
     *condition = largest / least;
     free(matrix);

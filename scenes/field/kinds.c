@@ -198,10 +198,17 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
 /* Remark 3 of Tyranowski & Desbrun (2019), section 3.3. */
 static void mesh_failure(const struct gm_view *view, char *text, size_t size)
 {
-    const bool free = gm_scheme_mesh(view->scheme) == GM_MESH_FREE && !gm_mesh_of(view).cell;
+    struct gm_mesh mesh = gm_mesh_of(view);
+    double rank, own, bare;
+    bool meet = gm_scheme_mesh(view->scheme) == GM_MESH_FREE;
+    if (meet && mesh.cell) { /* cells without inertia do not change the mass matrix */
+        meet = gm_mesh_mass(&mesh, view->state, &rank, &own);
+        mesh.cell = NULL;
+        meet = meet && gm_mesh_mass(&mesh, view->state, &rank, &bare) && own == bare;
+    }
     snprintf(text, size, "%s",
-             free ? "slopes meet at a node that is free, and the mass matrix is singular there; a line cell: "
-                    "makes it regular"
+             meet ? "slopes meet at a node that is free, and the mass matrix is singular there; a line cell: "
+                    "with inertia makes it regular"
                   : "");
 }
 

@@ -34,8 +34,7 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
 {
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
     const struct gm_system_lane *lane = parameters;
-    struct gm_mesh mesh;
-    moving->describe(problem, &mesh);
+    const struct gm_mesh mesh = gm_mesh_of_problem(problem);
     if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
         return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
     }
@@ -50,13 +49,18 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
         if (free && mesh.cell && !isfinite(gm_mesh_energy(&mesh, y))) {
             return gm_refuse(sentence, "cell: the energy of the cells is not finite at the start");
         }
-        const bool straight =
-            free && !mesh.cell && gm_mesh_mass(&mesh, y, &rank, &condition) && rank < 2 * (double)points;
-        return !straight ||
-               gm_refuse(sentence,
+        if (!free || !gm_mesh_mass(&mesh, y, &rank, &condition) || rank >= 2 * (double)points) {
+            return true;
+        }
+        return mesh.alone
+                   ? gm_refuse(sentence,
+                               "cell: the mass matrix of the nodes is singular: not all have inertia")
+                   : gm_refuse(
+                         sentence,
                          "%g of %zu nodes are straight: the mass matrix has rank %g of %zu; a line cell: "
-                         "makes it regular",
-                         2 * (double)points - rank, points, rank, 2 * points);
+                         "%smakes it regular",
+                         2 * (double)points - rank, points, rank, 2 * points,
+                         mesh.cell ? "like 0.05*(d_t/d)^2 " : "");
     }
     const char *name = lane->owner->system.variables[0].name;
     double u, slope, rate;
@@ -79,10 +83,9 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
 /* Notes the weight of the slope if the start chose it, and the number of nodes that are listed. */
 void gm_field_note_mesh(const struct gm_problem *problem, void *parameters)
 {
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(problem)->describe(problem, &mesh);
-    ((struct gm_system_lane *)parameters)->grid.alpha = gm_user_mesh_names(problem)->alpha;
-    ((struct gm_system_lane *)parameters)->grid.points = (long)mesh.points;
+    struct gm_system_lane *lane = parameters;
+    lane->grid.alpha = gm_user_mesh_names(problem)->alpha;
+    lane->grid.points = (long)gm_mesh_of_problem(problem).points;
 }
 
 double *gm_field_start_on(const struct gm_system_lane *lane, const struct gm_problem *problem,
@@ -91,8 +94,7 @@ double *gm_field_start_on(const struct gm_system_lane *lane, const struct gm_pro
     const bool moves = gm_user_field_of(lane)->kind->moves;
     *grid = problem->line;
     if (moves) {
-        struct gm_mesh mesh;
-        gm_moving_mesh_of(problem)->describe(problem, &mesh);
+        const struct gm_mesh mesh = gm_mesh_of_problem(problem);
         *grid = (struct gm_grid1){.points = CELLS + 1, .dx = mesh.length / CELLS, .first = mesh.first};
     }
     const struct gm_user_line *line = problem->parameters; /* first in those of every field */

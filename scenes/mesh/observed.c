@@ -11,8 +11,7 @@ enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
 
 struct gm_mesh gm_mesh_of(const struct gm_view *view)
 {
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
+    struct gm_mesh mesh = gm_mesh_of_problem(view->problem);
     mesh.cell = view->scheme && gm_scheme_mesh(view->scheme) == GM_MESH_FREE ? mesh.cell : NULL;
     return mesh;
 }

@@ -107,13 +107,13 @@ static bool find_axes(const double *block, size_t n, double axes[2][2])
     return least > 1e-9 * largest;
 }
 
-/* Tyranowski and Desbrun's figure 1 for every node: an ellipse of displacements of equal kinetic energy, a quarter of
-   whose long axes are below a twentieth of the panel, or, where a displacement along the field has none, a segment along it. Both
-   end at the neighbours. */
+/* Tyranowski and Desbrun's figure 1 for every node: displacements of one kinetic energy, the same for all nodes, with
+   which half of the ellipses are wider than a 35th of the panel. They end at the neighbours. Along the field a straight
+   node has a segment, whose displacements have no energy. */
 static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          const double *nodes)
 {
-    enum { AROUND = 48 };
+    enum { AROUND = 96 };
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_mesh mesh = gm_mesh_of(&view);
     const double width = panel->x.high - panel->x.low, height = panel->y.high - panel->y.low;
@@ -127,26 +127,27 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
     }
     for (size_t k = 0; k < mesh.points; k++) {
         if (find_axes(mass + k * next, n, axes)) {
-            sizes[count++] = gm_hypot(axes[0][1] / width, axes[0][0] / height);
+            sizes[count++] = gm_hypot(axes[1][1] / width, axes[1][0] / height);
         }
     }
     gsl_sort(sizes, 1, count);
-    const double scale = count > 0 ? 1. / 40 / sizes[count / 4] : 0; /* most others are nearly straight */
+    const double scale = count > 0 ? 1. / 70 / sizes[count / 2] : 0;
     for (size_t k = 0; k < mesh.points; k++) {
         const double *node = nodes + 2 * k + 2;
         if (!find_axes(mass + k * next, n, axes)) {
             gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 1, 2.4, GM_SOLID}, node - 2, 3, false);
             continue;
         }
-        const double reach = scale * fabs(axes[0][1]),
-                     part = scale * fmin(1, fmin(node[0] - node[-2], node[2] - node[0]) / reach);
+        const double reach = scale * axes[0][1], left = (node[-2] - node[0]) / reach,
+                     right = (node[2] - node[0]) / reach;
         for (size_t i = 0; i < AROUND; i++) {
-            const double c = part * gm_cos(2 * M_PI * (double)i / AROUND),
-                         s = part * gm_sin(2 * M_PI * (double)i / AROUND);
+            const double angle = 2 * M_PI * (double)i / AROUND,
+                         c = scale * fmax(left, fmin(right, gm_cos(angle))), s = scale * gm_sin(angle);
             around[2 * i] = node[0] + c * axes[0][1] + s * axes[1][1];
             around[2 * i + 1] = node[1] + c * axes[0][0] + s * axes[1][0];
         }
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2, GM_SOLID}, around, AROUND, true);
+        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.25}, around, AROUND);
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 1.4, GM_SOLID}, around, AROUND, true);
     }
 }
 
@@ -156,21 +157,21 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_mesh mesh = gm_mesh_of(&view);
     const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const bool inertia = show == GM_MESH_INERTIA;
     double *nodes = nodes_of(picture, &mesh, view.start);
-    if (nodes && view.t != view.t0) {
+    if (nodes && view.t != view.t0 && !inertia) {
         draw_line(picture, panel, &view, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes);
     }
     nodes = nodes_of(picture, &mesh, view.state);
     if (!nodes) {
         return;
     }
-    const bool inertia = show == GM_MESH_INERTIA;
     draw_line(picture, panel, &view, (struct gm_style){role, inertia ? 0.4 : 1, 1.6, GM_SOLID}, nodes);
     if (inertia) {
         draw_inertia(picture, panel, lane, nodes);
     }
     if (mesh.points <= 400) {
-        const double size = inertia ? 3 : mesh.points <= 40 ? 6 : mesh.points <= 130 ? 4.5 : 3;
+        const double size = inertia ? 4 : mesh.points <= 40 ? 6 : mesh.points <= 130 ? 4.5 : 3;
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = size}, nodes,
                        mesh.points + 2);
     }
@@ -193,7 +194,9 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
             const struct gm_mesh mesh = gm_mesh_of(&view);
             panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
             field_axes(panel, &mesh, look);
-            draw_exact(picture, panel, &view, &mesh);
+            if (look->show != GM_MESH_INERTIA) {
+                draw_exact(picture, panel, &view, &mesh);
+            }
         }
         draw_field(picture, panel, walk.lane, look->show);
     }
@@ -269,48 +272,47 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     struct gm_panel *panel =
         gm_panel_add(picture, GM_PLACE_GRAPH,
                      of_energy ? "largest error of the energy" : "largest error at any node and step");
-    double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
-    double *largest = gm_picture_memory(picture, count * sizeof *largest);
-    double *points = gm_picture_memory(picture, 2 * count * sizeof *points),
-           *over = gm_picture_memory(picture, count * sizeof *over);
-    if (!largest || !points || !over || error < 0) {
+    double *all = gm_picture_memory(picture, 4 * count * sizeof *all), *line = all ? all + 2 * count : NULL;
+    if (!all || error < 0) {
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        over[i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
-        largest[i] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
-        gm_range_add(&low_x, &high_x, over[i]);
-        gm_range_add(&low_y, &high_y, largest[i]);
-    }
-    gm_range_round(&low_y, &high_y, GM_LOG);
-    high_y *= of_energy ? 10 : 1; /* room for names */
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){
-        .label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
-    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
+    panel->x = (struct gm_axis){.label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = 1, .high = 0};
+    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
+    for (size_t i = 0; i < count; i++) {
+        all[2 * i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
+        all[2 * i + 1] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
+        gm_range_add(&panel->x.low, &panel->x.high, all[2 * i]);
+        gm_range_add(&panel->y.low, &panel->y.high, all[2 * i + 1]);
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
+    panel->x.low /= 1.3;
+    panel->x.high *= 1.3;
+    panel->y.high *= of_energy ? 10 : 1; /* room for names */
     size_t series = 0;
     for (size_t i = 0; i < count; i++) {
-        size_t made = 0, k = 0;
-        while (lanes[k]->scheme != lanes[i]->scheme) {
-            k++;
-        }
-        for (; k >= i && k < count; k++) { /* from the scheme's first lane on */
-            if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
-                points[2 * made] = over[k];
-                points[2 * made++ + 1] = largest[k];
+        size_t made = 0, first = count;
+        for (size_t k = 0; k < count; k++) {
+            if (lanes[k]->scheme == lanes[i]->scheme) {
+                first = first < k ? first : k;
+                line[2 * made] = all[2 * k];
+                line[2 * made + 1] = all[2 * k + 1];
+                made += isfinite(all[2 * k + 1]);
             }
         }
-        if (made == 0) {
+        if (first < i || made == 0) {
             continue;
         }
         const enum gm_role role = gm_lane_role(series);
-        const double *at = points + (of_energy && series % 2 ? 2 * made - 2 : 0); /* lines may coincide */
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made,
+        const bool under = of_energy && series % 2; /* lines may coincide */
+        const double *at = line + (under ? 2 * made - 2 : 0), room = under ? -0.05 : 0.03;
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, line, made,
                      false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, line, made);
         gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
-                     at[1] * gm_pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
+                     at[1] * gm_pow(panel->y.high / panel->y.low, room), GM_ANCHOR_LEFT,
+                     lanes[i]->scheme->title);
         series++;
     }
 }
@@ -326,18 +328,19 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         one_size &= lanes[i]->problem.n == lanes[0]->problem.n;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
-    const bool fields =
-        look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD || look->show == GM_MESH_INERTIA;
+    const bool fields = look->show == GM_MESH_ALL || look->show == GM_MESH_FIELD;
     const bool exact = isfinite(gm_mesh_exact(&view, mesh.first, view.t0)),
                later = lanes[0]->run->t != lanes[0]->t0;
-    return gm_picture_text(picture, "%s%s%s%s%s%s%s%s%s", look->front,
-                           one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "",
-                                                      mesh.points, gm_plural((double)mesh.points))
-                                    : "",
-                           gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "",
-                           one_scheme ? lanes[0]->schemes : "", fields && (exact || later) ? ";" : "",
-                           fields && exact ? "  grey: exact" : "", fields && exact && later ? "," : "",
-                           fields && later ? "  red: at the start" : "");
+    return gm_picture_text(
+        picture, "%s%s%s%s%s%s%s%s%s%s", look->front,
+        one_size ? gm_picture_text(picture, "%s%zu node%s", look->front[0] ? ",  " : "", mesh.points,
+                                   gm_plural((double)mesh.points))
+                 : "",
+        gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
+        fields && (exact || later) ? ";" : "", fields && exact ? "  grey: exact" : "",
+        fields && exact && later ? "," : "", fields && later ? "  red: at the start" : "",
+        look->show == GM_MESH_INERTIA ? ";  ellipses: displacements of one kinetic energy,  red: of none"
+                                      : "");
 }
 
 /* Draws each panel's lanes in graphs of their own, one above another, all on one scale. */

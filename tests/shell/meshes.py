@@ -249,6 +249,15 @@ def free_nodes():
     near("rank of a tent", states(tent, "--measure", "mass_rank", "steps=0")[0]["observables"]["mass_rank"], 8, 0)
     refused("9 of 31 nodes are straight: the mass matrix has rank 53 of 62; a line cell: makes it regular",
             "soliton", "scheme=free-gauss4", "until=1")
+    for cell in ("0*d", "d", "0*d_t", "1e-14*(d_t/d)^2"):
+        refused("9 of 31 nodes are straight: the mass matrix has rank 53 of 62; a line cell: like 0.05*(d_t/d)^2 makes it "
+                "regular", "soliton", "scheme=free-gauss4", "until=1", "cell=" + cell)
+        if cell[0] != "1":
+            made = run(path, "scheme=free-gauss4", "until=9", "dt=0.01", "cell=" + cell)
+            check(made.returncode == 2 and "slopes meet" in made.stdout, f"slopes meet with cell={cell}")
+    check(run(path, "scheme=free-gauss4", "dt=0.02", "steps=25", "cell=-(d_t/d)^2").returncode == 0,
+          "a mass matrix that is indefinite has its rank")
+    refused("cell: the mass matrix of the nodes is singular", "peakons", "cell=0*d")
     best = json.loads(run("soliton", "scheme=free-gauss2", "dt=0.02", "until=8", "cell=0.05*(d_t/d)^2", "--max",
                           "--json").stdout)["observables"]
     near("largest error of the soliton", best["solution_error_max"], 0.166, 0.005)

@@ -829,6 +829,86 @@ static void runs_of_every_kind_keep_their_bits(void **unused)
     }
 }
 
+/* The state after a step whose equations are solved to round-off, not to 1e-11. */
+static void step_sharply(struct gm_mesh_solver *solver, double t, double h, const double *state, double *next)
+{
+    const struct gm_elements *ends = &solver->ends;
+    const double *const parts[] = {ends->y, ends->x, ends->u, ends->v};
+    double multiplier;
+    gm_step_place(solver, state, t, h);
+    gm_step_guess(solver, solver->unknowns);
+    for (int iteration = 0; iteration < 12; iteration++) {
+        assert_true(gm_step_residual(solver, solver->unknowns));
+        gm_banded_clear(&solver->matrix);
+        for (size_t e = 0; e <= 7; e++) {
+            gm_step_matrix(solver, &(struct gm_assembly){&solver->matrix, 7, solver->of.per_node, e});
+        }
+        assert_true(gm_banded_factor(&solver->matrix));
+        gm_banded_solve(&solver->matrix, solver->residual);
+        for (size_t k = 0; k < solver->matrix.n; k++) {
+            solver->unknowns[k] -= solver->residual[k];
+        }
+    }
+    assert_true(gm_step_residual(solver, solver->unknowns));
+    assert_int_equal(gm_step_end(solver, &multiplier), GM_OK);
+    for (size_t part = 0; part < 4; part++) {
+        memcpy(next + 7 * part, parts[part] + 1, 7 * sizeof *next);
+    }
+}
+
+/* The discrete Euler-Lagrange equations of the midpoint rule in the cells (Tyranowski & Desbrun 2019, eq. 109), from three
+   states: what they leave, as a part of the largest term. A momentum has the terms d y'/h and d y/h of its two states. */
+static double cells_leave(const struct typed *typed, const char *name)
+{
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    struct gm_mesh_solver *solver = scheme->family->workspace_open(&typed->problem, scheme);
+    const double h = 0.05;
+    double states[3][4 * 7], rest[9] = {0}, largest = 0, worst = 0;
+    struct gm_elements at;
+    assert_true(gm_elements_open(&at, &typed->mesh));
+    assert_true(gm_mesh_start(&typed->mesh, GM_MESH_GIVEN, gm_moving_mesh_of(&typed->problem)->start,
+                              typed->problem.parameters, states[0]));
+    for (size_t step = 0; step < 2; step++) {
+        const double t = (double)step * h, sign = step == 0 ? 1 : -1;
+        step_sharply(solver, t, h, states[step], states[step + 1]);
+        gm_mesh_known(&typed->mesh, GM_MESH_GIVEN, t + h / 2, &at);
+        for (size_t k = 0; k < 7; k++) {
+            at.y[k + 1] = (states[step][k] + states[step + 1][k]) / 2;
+            at.u[k + 1] = (states[step + 1][k] - states[step][k]) / h;
+        }
+        assert_true(gm_elements_evaluate(&at, &typed->mesh));
+        for (size_t e = 0; e <= 7; e++) {
+            rest[e] += h / 2 * at.force_y0[e] + sign * at.momentum_u0[e];
+            rest[e + 1] += h / 2 * at.force_y1[e] + sign * at.momentum_u1[e];
+            largest = fmax(largest, at.width[e] / h * fmax(fabs(at.y[e]), fabs(at.y[e + 1])) / 3);
+        }
+    }
+    for (size_t k = 1; k <= 7; k++) {
+        worst = fmax(worst, fabs(rest[k]));
+    }
+    gm_elements_close(&at);
+    scheme->family->workspace_close(solver);
+    return worst / largest;
+}
+
+static void known_meshes_obey_the_cells_equations(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        double least, most;
+    } list[] = {{"given-gauss2", 0, 3e-16}, {"given-lobatto2", 1e-5, 1}, {"given-gauss4", 1e-5, 1}};
+    struct typed typed;
+    open_kind(&typed, false, 0);
+    typed.mesh.cell = NULL;
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
+        const double rest = cells_leave(&typed, list[i].name);
+        print_message("    %-24s leaves %.1e of the largest term\n", list[i].name, rest);
+        assert_true(rest >= list[i].least && rest <= list[i].most);
+    }
+    close_typed(&typed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -844,6 +924,7 @@ int main(void)
         cmocka_unit_test(energy_is_kept),
         cmocka_unit_test(what_does_not_rest_is_refused),
         cmocka_unit_test(matrices_are_derivatives),
+        cmocka_unit_test(known_meshes_obey_the_cells_equations),
         cmocka_unit_test(typed_derivatives_are_differences),
         cmocka_unit_test(mass_matrices_have_their_rank),
         cmocka_unit_test(runs_of_every_kind_keep_their_bits),

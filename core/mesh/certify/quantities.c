@@ -12,8 +12,7 @@
 size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     static const char *const names[] = {"u", "x", "u_dot", "x_dot"};
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(run->problem)->describe(run->problem, &mesh);
+    const struct gm_mesh mesh = gm_mesh_of_problem(run->problem);
     const size_t apart = mesh.alone ? 2 : 1, count = GM_COUNT(names) / apart;
     for (size_t i = 0; i < count; i++) {
         const size_t name = mesh.alone ? 2 * i + 1 : i;

@@ -48,7 +48,7 @@ bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_schem
     struct gm_mesh *mesh = &subject->mesh;
     subject->trial = (struct gm_trial){problem, scheme, &settings, dt, 1};
     subject->kind = gm_scheme_mesh(scheme);
-    moving->describe(problem, mesh);
+    *mesh = gm_mesh_of_problem(problem);
     mesh->cell = subject->kind == GM_MESH_FREE ? mesh->cell : NULL;
     return mesh->points <= GM_MESH_SUBJECT_POINTS && (!mesh->alone || subject->kind == GM_MESH_FREE) &&
            gm_mesh_start(mesh, subject->kind, moving->start, problem->parameters, subject->start);

@@ -4,7 +4,7 @@
 #define GM_CORE_MESH_FAMILIES_FAMILIES_H
 
 #include "core/basics.h"
-#include "core/mesh/solver.h"
+#include "core/mesh/equations.h"
 
 #define GM_FAMILY(name) extern const struct gm_family gm_family_##name;
 #include "core/mesh/families/families.def"

@@ -35,6 +35,7 @@
 #include "core/field/families/family.h"
 #include "core/functions/complex.h"
 #include "core/functions/functions.h"
+#include "core/linear/extrapolation.h"
 #include "core/linear/fourier.h"
 #include "core/linear/iteration.h"
 #include "core/linear/ring/blocks.h"
@@ -1129,16 +1130,6 @@ static void integrate_potentials(struct work *work, double *level)
     }
 }
 
-/* The polynomial through the past values, at the step to come. */
-static void extrapolate(double *const *past, size_t steps, double *to, size_t count)
-{
-    static const double weights[PAST][PAST] = {{1}, {2, -1}, {3, -3, 1}};
-    const double *w = weights[steps - 1];
-    for (size_t i = 0; i < count; i++) {
-        to[i] = w[0] * past[0][i] + w[1] * past[1][i] + w[2] * past[2][i];
-    }
-}
-
 /* Nothing determines the constant of a potential: on the first side it stays what it was. */
 static void anchor(struct work *work)
 {
@@ -1162,8 +1153,8 @@ static void anchor(struct work *work)
 static void guess(struct work *work, size_t known)
 {
     const size_t points = work->points, r = work->r, steps = known > 1 ? known - 1 : 1;
-    extrapolate(work->past_y, steps, work->y, work->sides * points);
-    extrapolate(work->past_z, steps, work->z, work->stages * points);
+    gm_extrapolate((const double *const *)work->past_y, steps, work->y, work->sides * points);
+    gm_extrapolate((const double *const *)work->past_z, steps, work->z, work->stages * points);
     for (size_t at = 0; at < work->d * r * r && known == 1; at++) {
         memcpy(work->z + at * points, work->low + (at / (r * r) * r + at % r) * points,
                points * sizeof(double));
