@@ -114,7 +114,7 @@ COMMANDS = [
     ("run MESHES/../breaks.system scheme=rk4 --measure events,lyapunov_spectrum --json", {}),
     ("run MESHES/../breaks.system scheme=rk4 --engine native --json", {}),
     ("orbit van-der-pol steps=9 scheme=rk4 dt=.1 --json", {}),
-    ("orbit clock scheme=gauss4 dt=.1 --json", {}),
+    ("orbit clock v=0.6 scheme=gauss4 dt=.1 --json", {}),
     ("sweep MESHES/../breaks.system w=2,3 scheme=rk4 --values y:2 --table OUT/a.csv", {"timed": True}),
     ("sweep kicked-rotor K=0.5,1 until=5 --values p:2 --table OUT/a.csv", {"timed": True}),
     ("run MESHES/../forms.system steps=1 --json", {}),
