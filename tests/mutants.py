@@ -35,6 +35,8 @@ SEEN_BY = {
     "core/mesh": "lobatto|user_meshes|mesh equations|soliton command line|recorded runs|claims",
     "core/flow": "flow|gmsh|walls|rooms|rooms of files|recorded runs|claims",
     "core/form": "forms|forms of files",
+    "core/events": "user|systems|engines|orbits command line|recorded runs",
+    "core/run": "run|arena|engines|systems|resume|recorded runs|claims",
     "core": "arena|run|user_schemes|typed|recorded runs|claims",
     "scenes/common": "lane|parameter|typed|space|ticks|views|session|indicators command line|golden system",
     "scenes": "lane|system|disc|heat|burgers|recorded runs|built-in files|command line|data|rooms of files|forms of files",
@@ -125,7 +127,7 @@ def chosen(count, seed, only):
 
 
 def folder_of(name):
-    return next(folder for folder in SEEN_BY if name.startswith(folder + "/"))
+    return next(folder for folder in SEEN_BY if name.startswith((folder + "/", folder + ".")))
 
 
 def change_of(place):
