@@ -417,6 +417,11 @@ static bool find_velocities(struct gm_mesh_solver *solver)
     return change < 1e-9;
 }
 
+bool gm_step_begin(struct gm_mesh_solver *solver)
+{
+    return find_places(solver) && find_velocities(solver);
+}
+
 enum gm_status gm_step_end(struct gm_mesh_solver *solver, double *multiplier)
 {
     const struct gm_mesh_tableau *tableau = solver->row->tableau;
