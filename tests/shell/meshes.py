@@ -98,6 +98,15 @@ def densities():
     refused("alpha is a key of moving meshes", file_of("alpha", "parameter: alpha = 1"))
     refused("steepest is a key of moving meshes: a parameter needs another name",
             file_of("steepest", "parameter: steepest = 1", "density: limited"))
+    for name in ("alpha", "steepest", "bend", "X", "relax"):
+        refused(f"{name} is a key of moving meshes: a let needs another name", file_of(f"let{name}", f"let: {name} = 1"))
+    refused("density: V_u has a meaning here, and a let of that name needs another one, at column 5",
+            file_of("let_force", "let: V_u = 1", "density: 1 + V_u"))
+    path = file_of("moment", "let: w = t + k", "let: z = w + 1")
+    refused("density: it does not hold t, and holds it through z, at column 5", path, "density=1 + z^2*u_x^2")
+    refused("cell: it does not hold t, and holds it through w, at column 1", path, "scheme=free-gauss4", "cell=w*(d_t/d)^2")
+    check(run(path, "scheme=given-gauss2", "mesh=X = x + 0*w", "steps=1").returncode == 0,
+          "mesh: holds t through a let")
     refused("density: has at most 255 characters", file_of("long", "density: 1" + " + u^2" * 60))
 
 
@@ -230,7 +239,9 @@ def smoothing():
               any("R reversible" in line and word in line for line in lines),
               f"certify with relax={relax}: symmetric holds, reversible {word}")
     refused("relax=-1 is out of range", path, "relax=-1")
-    refused("relax: is of control- schemes, and not of multiplier-lobatto4", path, "relax=1")
+    refused("none of these schemes takes relax=; these do: control-gauss2", path, "relax=1")
+    lazy, plain = (states(name, "until=0.5")[0]["state"] for name in (file_of("slow", STEEP, "relax: 0.3"), path))
+    check(lazy == plain, "a scheme that does not take a line relax: ignores it")
     refused("relax: is a number between 0 and 1e+06", file_of("lazy", "relax: k"))
 
 
@@ -290,6 +301,8 @@ def free_nodes():
     refused("cell: there is no name w; names are d, d_t, m_t, u_x", path, "scheme=free-gauss4", "cell=d*w")
     refused("cell: the energy of the cells is not finite at the start", path, "scheme=free-gauss4", "cell=d_t^2/(d - d)")
     refused("cell: it has to be smooth, and abs is not", path, "scheme=free-gauss4", "cell=abs(d_t)")
+    refused("cell: d has a meaning here, and a let of that name needs another one", file_of("let_d", "let: d = 1"),
+            "scheme=free-gauss4", "cell=d*d_t^2")
     refused("cell: it does not hold x", path, "scheme=free-gauss4", "cell=x*d_t^2")
 
 
