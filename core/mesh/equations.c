@@ -89,7 +89,8 @@ void gm_step_guess(const struct gm_mesh_solver *solver, double *unknowns)
             at[0] = solver->state[2 * points + k];
             if (of.per_stage > 1) {
                 at[1] = solver->state[points + k];
-                at[of.per_stage - 1] = solver->state[3 * points + k];
+                /* far from its place a mesh that is smoothed begins too fast for a whole step */
+                at[of.per_stage - 1] = of.smoothed ? 0 : solver->state[3 * points + k];
             }
         }
     }
