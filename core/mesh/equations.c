@@ -89,7 +89,8 @@ void gm_step_guess(const struct gm_mesh_solver *solver, double *unknowns)
             at[0] = solver->state[2 * points + k];
             if (of.per_stage > 1) {
                 at[1] = solver->state[points + k];
-                at[of.per_stage - 1] = solver->state[3 * points + k];
+                /* far from its place a mesh that is smoothed begins too fast for a whole step */
+                at[of.per_stage - 1] = of.smoothed ? 0 : solver->state[3 * points + k];
             }
         }
     }
@@ -415,6 +416,11 @@ static bool find_velocities(struct gm_mesh_solver *solver)
         }
     }
     return change < 1e-9;
+}
+
+bool gm_step_begin(struct gm_mesh_solver *solver)
+{
+    return find_places(solver) && find_velocities(solver);
 }
 
 enum gm_status gm_step_end(struct gm_mesh_solver *solver, double *multiplier)

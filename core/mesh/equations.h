@@ -74,6 +74,9 @@ void gm_step_guess(const struct gm_mesh_solver *solver, double *unknowns);
 bool gm_step_residual(struct gm_mesh_solver *solver, const double *unknowns);
 /* Adds the derivative of the residual by the unknowns of one element, at the unknowns of its last call. */
 void gm_step_matrix(struct gm_mesh_solver *solver, const struct gm_assembly *assembly);
+/* Finds the start's own velocities on a mesh that is smoothed in time, dX/dt = g/E and dy/dt by its momenta, in
+   solver->ends; after gm_step_place. False: a cell is not positive. */
+bool gm_step_begin(struct gm_mesh_solver *solver);
 /* Finds the end of the step from its solved stages, in solver->ends, and the largest multiplier. */
 enum gm_status gm_step_end(struct gm_mesh_solver *solver, double *multiplier);
 

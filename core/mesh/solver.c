@@ -108,6 +108,22 @@ void gm_mesh_workspace_reset(void *workspace)
     ((struct gm_mesh_solver *)workspace)->stamp = 0;
 }
 
+/* Copies the nodes at the end of a step, or at a start, into `state`. */
+static enum gm_status store(const struct gm_mesh_solver *solver, double *state, double limit)
+{
+    const struct gm_elements *end = &solver->ends;
+    const double *const parts[] = {end->y, end->x, end->u, end->v};
+    for (size_t part = 0; part < GM_COUNT(parts); part++) {
+        for (size_t k = 1; k <= solver->mesh.points; k++, state++) {
+            *state = parts[part][k];
+            if (!(fabs(*state) <= limit)) {
+                return GM_BLOW_UP;
+            }
+        }
+    }
+    return GM_OK;
+}
+
 /* The density of steps of an adaptive scheme, which is 0 in a new run. */
 static double *density(const struct gm_task *task)
 {
@@ -123,7 +139,14 @@ enum gm_status gm_mesh_restart(const struct gm_task *task)
     if (task->scheme->family->adaptive) { /* a reversed run keeps it */
         *density(task) = *density(task) > 0 ? *density(task) : 1;
     }
-    return gm_mesh_carry(&solver->mesh, solver->kind, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
+    if (!gm_mesh_carry(&solver->mesh, solver->kind, task->y, task->out)) {
+        return GM_MESH_CROSSING;
+    }
+    if (!solver->of.smoothed) {
+        return GM_OK;
+    }
+    gm_step_place(solver, task->out, task->t, task->dt);
+    return gm_step_begin(solver) ? store(solver, task->out, task->limit) : GM_MESH_CROSSING;
 }
 
 enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme)
@@ -350,24 +373,6 @@ static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const
     return gm_step_residual(solver, solver->unknowns) ? GM_OK : GM_MESH_CROSSING;
 }
 
-/* The end of the step, from the solved stages, into `state`, where its start is. */
-static enum gm_status finish(struct gm_mesh_solver *solver, double *state, double *multiplier, double limit)
-{
-    const struct gm_elements *end = &solver->ends;
-    const double *const parts[] = {end->y, end->x, end->u, end->v};
-    const size_t points = solver->mesh.points;
-    const enum gm_status status = gm_step_end(solver, multiplier);
-    for (size_t part = 0; part < GM_COUNT(parts) && status == GM_OK; part++) {
-        for (size_t k = 1; k <= points; k++, state++) {
-            *state = parts[part][k];
-            if (!(fabs(*state) <= limit)) {
-                return GM_BLOW_UP;
-            }
-        }
-    }
-    return status;
-}
-
 /* Sets the tolerances of a step of this length. */
 static void scale(struct gm_mesh_solver *solver, double h)
 {
@@ -423,7 +428,10 @@ struct gm_progress gm_mesh_loop(const struct gm_task *task)
         scale(solver, h);
         progress.status = solve(solver, memory, state, t, h, &progress);
         if (progress.status == GM_OK) {
-            progress.status = finish(solver, state, &memory[MEMORY_MULTIPLIER], task->limit);
+            progress.status = gm_step_end(solver, &memory[MEMORY_MULTIPLIER]);
+        }
+        if (progress.status == GM_OK) {
+            progress.status = store(solver, state, task->limit);
         }
         if (progress.status != GM_OK) {
             break;

@@ -56,7 +56,7 @@ static void settle(struct gm_lane *lane, unsigned long refusals)
 }
 
 /* Computes the start values of errors, again for each scheme that continues the lane, as it may use another
-   discretisation. Some starts are a difference of large terms: round-off, or little more. */
+   discretisation, and states of its own. Some starts are a difference of large terms: round-off, or little more. */
 static void look_at_start(struct gm_lane *lane)
 {
     const double most = 1e-8;
@@ -65,7 +65,7 @@ static void look_at_start(struct gm_lane *lane)
     struct gm_run *begun = before.memory ? gm_run_open(&lane->problem, lane->scheme, &lane->settings,
                                                        lane->t0, lane->run->dt, lane->start)
                                          : NULL;
-    before.state = lane->start;
+    before.state = begun && begun->status == GM_OK ? gm_run_state(begun) : lane->start;
     before.t = lane->t0;
     before.memory = begun ? gm_run_memory(begun) : NULL;
     before.booked = NULL;

@@ -296,10 +296,10 @@ static const struct gm_parameter node_rows[] = {
 static const struct gm_observable of_nodes[] = {
     GM_OBSERVABLE("energy", gm_view_mesh_energy, "energy"),
     GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
-    GM_KEPT_OBSERVABLE("momentum_error", node_momentum, "P", "momentum error"),
+    /* walls and a total derivative in cell: change the momentum, so that it is not lost */
+    GM_LOG_OBSERVABLE("momentum_error", node_momentum, "momentum error", .error = true, .symbol = "P"),
     GM_OBSERVABLE("crest", crest_of_nodes, "place of the fastest node"),
-    GM_OBSERVABLE("amplitude", height_of_nodes, "its velocity"),
-    GM_MESH_SOLVING};
+    GM_OBSERVABLE("amplitude", height_of_nodes, "its velocity"), GM_MESH_SOLVING};
 static const char *const free_schemes[] = {"free-gauss4", "free-gauss2", NULL};
 
 const struct gm_field_kind gm_field_nodes = {

@@ -26,7 +26,8 @@ bool gm_field_takes(const struct gm_scheme *scheme, const char *key)
 {
     const enum gm_mesh_kind mesh = gm_scheme_mesh(scheme);
     return (mesh == GM_MESH_FREE || strcmp(key, "cell") != 0) &&
-           (mesh == GM_MESH_GIVEN || strcmp(key, "mesh") != 0);
+           (mesh == GM_MESH_GIVEN || strcmp(key, "mesh") != 0) &&
+           (gm_scheme_relaxes(scheme) || strcmp(key, "relax") != 0);
 }
 
 bool gm_field_start_mesh(const void *parameters, const struct gm_problem *problem,
@@ -35,9 +36,6 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
     const struct gm_system_lane *lane = parameters;
     const struct gm_mesh mesh = gm_mesh_of_problem(problem);
-    if (mesh.relax > 0 && !gm_scheme_relaxes(scheme)) {
-        return gm_refuse(sentence, "relax: is of control- schemes, and not of %s", scheme->name);
-    }
     const bool free = gm_scheme_mesh(scheme) == GM_MESH_FREE;
     if (mesh.alone && !(free && mesh.cell)) {
         return free ? gm_refuse(sentence, "cell: is 0, and nodes alone move by nothing else")

@@ -34,12 +34,28 @@
 enum { DT, UNTIL };
 enum { MOST_DENSITIES = 32, MOST_OBSERVABLES = 48, MOST_ROWS = 8 };
 
+/* Refuses a name of the file that keys have, or formulas of a moving mesh, where it would mean nothing. */
+static void check_name(struct gm_arena *arena, const struct gm_field_kind *kind, const char *name,
+                       const char *what)
+{
+    static const char *const in_formulas[] = {"steepest", "bend", "X"};
+    bool taken = false;
+    for (size_t k = 0; k < kind->row_count; k++) {
+        taken |= strcmp(kind->rows[k].key, name) == 0;
+    }
+    for (size_t w = 0; kind->moves && w < GM_COUNT(in_formulas); w++) {
+        taken |= strcmp(in_formulas[w], name) == 0;
+    }
+    if (taken) {
+        gm_arena_refuse(arena, "%.60s is a key of moving meshes: a %s needs another name", name, what);
+    }
+}
+
 static void make_rows(struct gm_user_field *field)
 {
     static const enum gm_system_word chosen[] = {GM_WORD_SPACE, GM_WORD_BOUNDARY, GM_WORD_DENSITY,
                                                  GM_WORD_MESH,  GM_WORD_RELAX,    GM_WORD_CELL,
                                                  GM_WORD_NODES, GM_WORD_BETWEEN};
-    static const char *const in_formulas[] = {"steepest", "bend", "X"};
     struct gm_system_scene *of_file = &field->of_file;
     const struct gm_user_system *system = &of_file->system;
     const struct gm_field_kind *kind = field->kind;
@@ -82,17 +98,12 @@ static void make_rows(struct gm_user_field *field)
         last->highest = 1e5;
         last->logarithmic = true;
     }
+    const struct gm_system_item *let;
     for (size_t i = GM_SYSTEM_ROWS; i < of_file->row_count; i++) {
-        for (size_t k = 0; k < kind->row_count; k++) {
-            const char *key = common[k].key;
-            for (size_t w = 0; kind->moves && w < GM_COUNT(in_formulas); w++) {
-                key = strcmp(in_formulas[w], of_file->rows[i].key) == 0 ? in_formulas[w] : key;
-            }
-            if (strcmp(key, of_file->rows[i].key) == 0) {
-                gm_arena_refuse(arena, "%.60s is a key of moving meshes: a parameter needs another name",
-                                key);
-            }
-        }
+        check_name(arena, kind, of_file->rows[i].key, "parameter");
+    }
+    for (size_t i = 0; kind->moves && (let = gm_system_item_of(system, GM_WORD_LET, i)); i++) {
+        check_name(arena, kind, let->name, "let");
     }
     const size_t own = of_file->row_count + kind->row_count;
     gm_parameters_reset(of_file->rows + GM_SYSTEM_ROWS, own - GM_SYSTEM_ROWS, of_file->initial);

@@ -153,10 +153,11 @@ double gm_view_factorisations(const struct gm_view *view)
 const struct gm_observable gm_mesh_observables[8] = {
     GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),
     GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
-    GM_KEPT_OBSERVABLE("field_energy_error", field_energy, "E", "energy error of the field alone",
-                       .missing = "cells have no energy of their own"),
+    /* cells take energy from the field, so that it is not lost */
+    GM_LOG_OBSERVABLE("field_energy_error", field_energy, "energy error of the field alone", .error = true,
+                      .symbol = "E", .missing = "cells have no energy of their own"),
     GM_LOG_OBSERVABLE("constraint_defect", constraint_defect, "defect of the mesh constraint",
-                      .missing = "this mesh does not move"),
+                      .missing = "nothing constrains this mesh"),
     GM_OBSERVABLE("multiplier_norm", multiplier_norm, "largest multiplier"),
     GM_MESH_SOLVING,
 };

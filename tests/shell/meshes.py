@@ -92,11 +92,21 @@ def densities():
     refused("density: it has to be smooth, and abs is not, at column 5", "soliton", "density=1 + abs(u_x)")
     refused("density: is -1 at the start where x = 0", "soliton", "density=u_x - 1")
     refused("density: is ", "soliton", "density=1/(x - 12.5)")
+    refused("density: is not a number at the start where x = 0", "soliton", "density=sqrt(u_x - 100)")
     refused("the formula ends where a number", "soliton", "density=sqrt(1 +")
     refused("bad.system:9:10: density: there is no name w; names are u_x, u, x, at column 5 of 1 + w", file_of("bad", "density: 1 + w"))
     refused("alpha is a key of moving meshes", file_of("alpha", "parameter: alpha = 1"))
     refused("steepest is a key of moving meshes: a parameter needs another name",
             file_of("steepest", "parameter: steepest = 1", "density: limited"))
+    for name in ("alpha", "steepest", "bend", "X", "relax"):
+        refused(f"{name} is a key of moving meshes: a let needs another name", file_of(f"let{name}", f"let: {name} = 1"))
+    refused("density: V_u has a meaning here, and a let of that name needs another one, at column 5",
+            file_of("let_force", "let: V_u = 1", "density: 1 + V_u"))
+    path = file_of("moment", "let: w = t + k", "let: z = w + 1")
+    refused("density: it does not hold t, and holds it through z, at column 5", path, "density=1 + z^2*u_x^2")
+    refused("cell: it does not hold t, and holds it through w, at column 1", path, "scheme=free-gauss4", "cell=w*(d_t/d)^2")
+    check(run(path, "scheme=given-gauss2", "mesh=X = x + 0*w", "steps=1").returncode == 0,
+          "mesh: holds t through a let")
     refused("density: has at most 255 characters", file_of("long", "density: 1" + " + u^2" * 60))
 
 
@@ -216,8 +226,22 @@ def smoothing():
     for lane, wanted in zip(lanes, (7.2e-4, 7.2e-5, 7.2e-6), strict=True):
         gap = apart(lane["state"], held["state"])
         near(f"distance from relax=0 with relax={lane['parameters']['relax']:g}", gap, wanted, 0.05 * wanted)
+    # the run begins with dX/dt = g/E, as every step ends, and with the momenta of the other schemes' start
+    short = states("soliton", "scheme=control-radau5", "relax=0.3", "dt=1e-6", "steps=1")[0]["observables"]
+    near("energy error after a step of 1e-6 with relax", short["energy_error"], 0, 1e-6)
+    begun, after = (states(path, "relax=0.3", "scheme=control-radau5", "dt=1e-7", f"steps={n}")[0]["state"] for n in (0, 1))
+    compare("velocities of the start", begun["u_dot"] + begun["x_dot"], after["u_dot"] + after["x_dot"], 1e-5)
+    for relax, word in (("0.3", "not claimed"), ("0", "holds")):
+        made = subprocess.run([program, "certify", "control-gauss2", "--on", "soliton", "points=7", f"relax={relax}"],
+                              capture_output=True, text=True, check=False)
+        lines = made.stdout.splitlines()
+        check(made.returncode == 0 and any("= symmetric" in line and "holds" in line for line in lines) and
+              any("R reversible" in line and word in line for line in lines),
+              f"certify with relax={relax}: symmetric holds, reversible {word}")
     refused("relax=-1 is out of range", path, "relax=-1")
-    refused("relax: is of control- schemes, and not of multiplier-lobatto4", path, "relax=1")
+    refused("none of these schemes takes relax=; these do: control-gauss2", path, "relax=1")
+    lazy, plain = (states(name, "until=0.5")[0]["state"] for name in (file_of("slow", STEEP, "relax: 0.3"), path))
+    check(lazy == plain, "a scheme that does not take a line relax: ignores it")
     refused("relax: is a number between 0 and 1e+06", file_of("lazy", "relax: k"))
 
 
@@ -233,6 +257,8 @@ def free_nodes():
     near("energy at the start", start["energy"], 1.9870952359088, 1e-12)
     field = states(path, "scheme=multiplier-lobatto4", "steps=0")[0]["observables"]
     near("the field's", field["energy"], 1.9870647750702, 1e-12)
+    made = run(path, "scheme=free-gauss4", "steps=0")
+    check("none: nothing constrains this mesh" in made.stdout, "a free mesh has no constraint")
     longer = states(path, "scheme=free-gauss4", "until=9", "dt=0.01")[0]
     check(longer["status"] == "ok", "to t = 9: " + longer["status"])
     near("energy error", longer["observables"]["energy_error"], 0, 1e-7)
@@ -275,6 +301,8 @@ def free_nodes():
     refused("cell: there is no name w; names are d, d_t, m_t, u_x", path, "scheme=free-gauss4", "cell=d*w")
     refused("cell: the energy of the cells is not finite at the start", path, "scheme=free-gauss4", "cell=d_t^2/(d - d)")
     refused("cell: it has to be smooth, and abs is not", path, "scheme=free-gauss4", "cell=abs(d_t)")
+    refused("cell: d has a meaning here, and a let of that name needs another one", file_of("let_d", "let: d = 1"),
+            "scheme=free-gauss4", "cell=d*d_t^2")
     refused("cell: it does not hold x", path, "scheme=free-gauss4", "cell=x*d_t^2")
 
 
@@ -326,6 +354,9 @@ def nodes_alone():
         z = [a + h / 6 * (b + 2 * c + 2 * d + e) for a, b, c, d, e in zip(z, k1, k2, k3, k4, strict=True)]
     compare("Camassa and Holm's equations of two peakons", lane["state"][:2], z[:2], 1e-8)
     compare("their momenta", momenta(lane["state"][:2], lane["state"][2:]), z[2:], 1e-8)
+    made = run("peakons", "nodes=-8, -2", "until=15.5", "dt=0.01")
+    check("momentum_error       2.1" in made.stdout and "warning" not in made.stdout,
+          f"momentum that walls take is not lost: {made.stdout}")
     path = f"{folder.name}/one.system"
     with open(path, "w", encoding="utf-8") as file:
         file.write("cell: m_t^2*tanh(d/2) + d_t^2/(4*tanh(d/2))\ndensity: 1 + 2/cosh(x)\nhalf_length: 20\n"
@@ -375,6 +406,13 @@ def nodes_alone():
     still = states(path, "scheme=free-gauss4", "steps=0")[0]["state"]
     with open(path, "w", encoding="utf-8") as file:
         file.write(text + STEEP + "\ncell: 0.05*(d_t/d)^2\n")
+    faint = f"{folder.name}/faint.system"
+    with open(faint, "w", encoding="utf-8") as file:
+        file.write("field: u\nV: u^2/2\nstart: u = 0.01*exp(-x^2), u_t = 0, X_t = 1.5*cos(pi*x/12)\nhalf_length: 6\n"
+                   "points: 7\nschemes: free-gauss4\ncell: 5*(d_t/d)^2\n")
+    taken = json.loads(run(faint, "until=4", "dt=0.02", "--json").stdout)
+    check(taken["observables"]["field_energy_error"] > 2 and not taken.get("warning") and taken["status"] == "ok",
+          f"energy that cells give the field is not lost: {taken['observables']['field_energy_error']:.3g}")
     state, held = (lane["state"] for lane in states(path, "scheme=free-gauss4,multiplier-lobatto4", "steps=0"))
     compare("X_t at the start", state["x_dot"], [0.1 * math.cos(math.pi * x / 12) for x in state["x"]], 1e-14)
     slopes = [-2 / 3 * (x - 0.5) * u for x, u in zip(state["x"], state["u"], strict=True)]

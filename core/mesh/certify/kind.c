@@ -193,6 +193,9 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         }
         measure(certificate, &subject, size, "a step fails: a shorter one, dt=, may be measured");
     }
+    if (subject.mesh.relax > 0) { /* a mesh that is smoothed in time has no reversal */
+        gm_certificate_claim(certificate, GM_REVERSIBLE)->claimed &= !gm_scheme_relaxes(scheme);
+    }
     certificate->order_problem = system->problem->name;
     certificate->order_reason = isnan(certificate->order)
                                     ? "differences between runs with steps from 2 dt down are not clear of "

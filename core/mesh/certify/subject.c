@@ -47,11 +47,13 @@ bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_schem
     const struct gm_moving_mesh *moving = gm_moving_mesh_of(problem);
     struct gm_mesh *mesh = &subject->mesh;
     subject->trial = (struct gm_trial){problem, scheme, &settings, dt, 1};
+    const struct gm_trial begin = {problem, scheme, &settings, dt, 0}; /* no step: as the scheme begins */
     subject->kind = gm_scheme_mesh(scheme);
     *mesh = gm_mesh_of_problem(problem);
     mesh->cell = subject->kind == GM_MESH_FREE ? mesh->cell : NULL;
     return mesh->points <= GM_MESH_SUBJECT_POINTS && (!mesh->alone || subject->kind == GM_MESH_FREE) &&
-           gm_mesh_start(mesh, subject->kind, moving->start, problem->parameters, subject->start);
+           gm_mesh_start(mesh, subject->kind, moving->start, problem->parameters, subject->start) &&
+           gm_trial_advance(&begin, subject->start, subject->start);
 }
 
 bool gm_mesh_subject_shift(const struct gm_mesh_subject *subject, const double *by, double *state)

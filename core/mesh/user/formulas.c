@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
@@ -75,6 +76,28 @@ static gm_node_id taken(struct reading *reading, gm_node_id node)
     return node;
 }
 
+/* Returns true if the line holds a variable of the system. */
+static bool holds(const struct reading *reading, size_t variable)
+{
+    const struct gm_node *meant = &reading->graph.nodes[reading->of_system[variable]];
+    return meant->operation != GM_CONSTANT || !isnan(meant->value);
+}
+
+/* Returns a variable that a formula of the system holds and the line does not, or the number of variables. */
+static size_t find_lacking(struct reading *reading, gm_node_id node)
+{
+    const struct gm_user_system *system = reading->names->wave->system;
+    size_t count = 0, lacking = system->variable_count;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    reading->graph.failed |= !parts;
+    for (size_t k = 0; parts && k < count; k++) {
+        const struct gm_node *part = &system->graph.nodes[parts[k]];
+        lacking = part->operation == GM_VARIABLE && !holds(reading, part->a) ? part->a : lacking;
+    }
+    free(parts);
+    return lacking;
+}
+
 /* The density of nodes alone depends on the place alone. */
 static size_t first_input(const struct reading *reading)
 {
@@ -107,28 +130,37 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
 {
     struct reading *reading = data;
     const struct gm_user_system *system = reading->names->wave->system;
-    const struct gm_system_item *item;
+    const struct gm_system_item *let;
     const gm_node_id own = *node = find_own(reading, name);
-    size_t i = 0;
-    while (i < system->variable_count && !is_called(name, system->variables[i].name)) {
+    size_t number = 0, i = 0;
+    while (number < system->variable_count && !is_called(name, system->variables[number].name)) {
+        number++;
+    }
+    while ((let = gm_system_item_of(system, GM_WORD_LET, i)) && !is_called(name, let->name)) {
         i++;
     }
-    if (i < system->variable_count) {
-        const bool twice = own != GM_NO_NODE && i >= system->parameters && i < system->velocities;
-        *node = own != GM_NO_NODE ? own : reading->of_system[i];
-        const struct gm_node *meant = &reading->graph.nodes[*node];
-        if (twice || (meant->operation == GM_CONSTANT && isnan(meant->value))) {
+    const bool fixed = number >= system->parameters && number < system->velocities;
+    if (own != GM_NO_NODE) {
+        if (fixed || let) {
             snprintf(sentence, GM_FAULT_SENTENCE,
-                     twice ? "%.*s has a meaning here, and a parameter of that name needs another one"
-                           : "it does not hold %.*s",
-                     (int)name->length, name->text);
-            return GM_REFUSED;
+                     "%.*s has a meaning here, and a %s of that name needs another one", (int)name->length,
+                     name->text, let ? "let" : "parameter");
         }
+        return fixed || let ? GM_REFUSED : GM_KNOWN;
     }
-    for (i = 0; *node == GM_NO_NODE && (item = gm_system_item_of(system, GM_WORD_LET, i)); i++) {
-        *node = is_called(name, item->name) ? taken(reading, item->nodes[0]) : GM_NO_NODE;
+    if (!let && number == system->variable_count) {
+        return GM_UNKNOWN;
     }
-    return *node == GM_NO_NODE ? GM_UNKNOWN : GM_KNOWN;
+    const size_t lacking = let                      ? find_lacking(reading, let->nodes[0])
+                           : holds(reading, number) ? system->variable_count
+                                                    : number;
+    if (lacking < system->variable_count) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "it does not hold %s%s%s", system->variables[lacking].name,
+                 let ? ", and holds it through " : "", let ? let->name : "");
+        return GM_REFUSED;
+    }
+    *node = let ? taken(reading, let->nodes[0]) : reading->of_system[number];
+    return GM_KNOWN;
 }
 
 static const char *known(size_t i, const void *data)

@@ -329,9 +329,12 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
         double rho;
         gm_tape_values(&self->formulas.rho, of_density, &rho, 1);
         if (!(rho >= 0 && isfinite(rho))) {
-            return gm_fail(fault, 0,
-                           "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity",
-                           rho, x);
+            return isnan(rho)
+                       ? gm_fail(fault, 0, "density: is not a number at the start where x = %.6g", x)
+                       : gm_fail(
+                             fault, 0,
+                             "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity",
+                             rho, x);
         }
         largest = fmax(largest, fabs(at[RATE * grid.points]));
     }
