@@ -259,16 +259,6 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     part->how = slopes == 0 ? SHEAR : part->flow.constant && n <= GM_NEWTON_LARGEST ? EXPONENTIAL : SERIES;
 }
 
-bool gm_part_is_given(const struct gm_problem *problem, const char *name)
-{
-    const struct gm_parts *parts = gm_ode_of(problem)->parts;
-    bool given = false;
-    for (size_t i = 0; parts && i < parts->given; i++) {
-        given = given || strcmp(parts->names[i], name) == 0;
-    }
-    return given;
-}
-
 /* Opens a part by its name: what the structure's facets solve, unless the file gives the name, or a formula. */
 static void open_part(struct work *work, struct part *part, const struct gm_named_part *named)
 {

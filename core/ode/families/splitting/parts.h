@@ -19,8 +19,6 @@ struct gm_parts_row {
     const struct gm_composition *of_pieces; /* NULL: once each, in order */
 };
 
-/* Returns true if the system itself gives a part of that name. */
-bool gm_part_is_given(const struct gm_problem *problem, const char *name);
 /* Returns how the flow of a named part is computed, in words; NULL: it is not known. */
 const char *gm_part_flow(const struct gm_problem *problem, const char *name);
 

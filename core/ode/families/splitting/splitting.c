@@ -10,7 +10,6 @@
 #include "core/ode/families/splitting/splitting.h"
 
 #include "core/ode/families/family.h"
-#include "core/ode/families/splitting/parts.h"
 #include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
@@ -89,6 +88,16 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 {
     (void)scheme;
     return gm_tiles_open(problem, problem->n, 0);
+}
+
+bool gm_part_is_given(const struct gm_problem *problem, const char *name)
+{
+    const struct gm_parts *parts = gm_ode_of(problem)->parts;
+    bool given = false;
+    for (size_t i = 0; parts && i < parts->given; i++) {
+        given = given || strcmp(parts->names[i], name) == 0;
+    }
+    return given;
 }
 
 /* The names of a word mean the system's own parts, if it has them. */
