@@ -94,6 +94,8 @@ struct gm_scheme {
        theory. NULL: the scheme is a row of its family. */
     const char *word;
     const struct gm_coefficients *exact;
+    /* The same word where the system itself gives the parts that it names; NULL: none */
+    const struct gm_scheme *by_names;
     const struct gm_scheme *base; /* whose steps it corrects, so that it may give up claims; NULL: none */
 };
 

@@ -115,7 +115,11 @@ static const struct gm_scheme *find_brought(const char *name, const struct gm_pr
     for (size_t i = brought.count; i-- > 0 && !found;) {
         const struct gm_scheme *scheme = brought.schemes[i];
         const bool named = strcmp(scheme->name, name) == 0 || strcmp(scheme->word, name) == 0;
-        found = named && (!problem || gm_scheme_fits(scheme, problem)) ? scheme : NULL;
+        const struct gm_scheme *other = problem ? scheme->by_names : NULL;
+        found = !named                                        ? NULL
+                : !problem || gm_scheme_fits(scheme, problem) ? scheme
+                : other && gm_scheme_fits(other, problem)     ? other
+                                                              : NULL;
     }
     pthread_mutex_unlock(&brought.lock);
     return found;

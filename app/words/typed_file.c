@@ -237,6 +237,7 @@ struct typing {
     bool has[FORMULAS];          /* true for the keys that are given */
     bool usual;                  /* the coordinates are q or q1, q2, as none are given */
     bool velocities;             /* velocities are called v, or v1, v2 */
+    bool alone; /* the coordinates are the state, as of an L that is linear in the velocities */
 };
 
 /* A name in a typed formula, or in a list of components. */
@@ -362,17 +363,18 @@ static void add_usual_coordinates(struct typing *typing)
         degrees++;
     }
     typing->velocities = typing->has[FORMULA_L] && has_numbered(typing, 'v', has_numbered(typing, 'q', 1));
-    const int first = typing->count;
     for (int list = 0; list < 2 + typing->velocities; list++) {
+        if (list == 1 && typing->alone) {
+            continue;
+        }
         const char *word =
             gm_arena_print(typing->arena, degrees > 0 ? "%s" : "%s%c", lists[list], "qpv"[list]);
         for (int i = 1; i <= degrees; i++) {
             word = gm_arena_print(typing->arena, "%s%s%c%d", word, i > 1 ? " " : "", "qpv"[list], i);
         }
-        typing->words[first + list] = word;
+        typing->words[typing->count++] = word;
         put_line(typing->file, word, -1);
     }
-    typing->count += 2 + typing->velocities;
 }
 
 /* The words that give a component its value at the start, or the others, which are parameters. */
@@ -626,8 +628,33 @@ static void put_typed(struct gm_arena *arena, void *data)
     put_missing(typing);
 }
 
+/* Returns true if the text is that of an L which is linear in the velocities. */
+static bool is_degenerate(const struct gm_typed_file *file)
+{
+    struct gm_user_system system;
+    struct gm_fault fault;
+    const bool found = gm_system_read(&system, file->text, file->length, NULL, 0, &fault) && system.theta;
+    gm_system_close(&system);
+    return found;
+}
+
 bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place, char *message)
 {
-    struct typing typing = {.file = file, .wrong = place};
-    return run(file, put_typed, &typing, message);
+    struct typing typing = {.file = file, .wrong = place},
+                  alone = {.file = file, .wrong = place, .alone = true};
+    if (!run(file, put_typed, &typing, message)) {
+        return false;
+    }
+    if (file->missing && typing.usual && typing.has[FORMULA_L]) {
+        const struct gm_typed_file usual = *file;
+        file->text = NULL;
+        file->parts = NULL;
+        file->length = file->part_count = 0;
+        file->missing = NULL;
+        if (!run(file, put_typed, &alone, message) || file->missing || !is_degenerate(file)) {
+            *file = usual;
+            message[0] = '\0';
+        }
+    }
+    return true;
 }

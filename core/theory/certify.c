@@ -123,10 +123,13 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
             *(c < half ? &q[c] : &p[c]) = all[c];
         }
         varies = varies || !(differences_of(kept, start, n, 1, all) < none);
-        linear = linear && differences_of(kept, start, n, 2, all) < none;
-        quadratic = quadratic && differences_of(kept, start, n, 3, all) < none;
         bilinear = bilinear && differences_of(kept, start, n, 2, q) < none &&
                    differences_of(kept, start, n, 2, p) < none;
+        linear = linear && bilinear && differences_of(kept, start, n, 2, all) < none;
+        /* large squares of momenta hide a small potential along directions of both */
+        quadratic = quadratic && differences_of(kept, start, n, 3, all) < none &&
+                    differences_of(kept, start, n, 3, q) < none &&
+                    differences_of(kept, start, n, 3, p) < none;
         of_momenta = of_momenta && fabs(kept->value(kept->data, q, NULL)) <=
                                        none * fabs(kept->value(kept->data, all, NULL));
     }

@@ -161,6 +161,23 @@ static bool has_velocities(const struct gm_user_system *system, double *values, 
     return gm_equations_check_velocities(system, values, &fault) || gm_refuse(sentence, "%s", fault.sentence);
 }
 
+/* Returns true unless a rate is not finite in a magnetic field, whose steps do not evaluate the field at their start. */
+static bool has_field(const struct gm_problem *problem, const double *values, char *sentence)
+{
+    double *rates = gm_ode_of(problem)->magnetic ? malloc(problem->n * sizeof *rates) : NULL;
+    bool finite = true;
+    if (rates) {
+        struct gm_problem alone = *problem;
+        alone.m = 1;
+        gm_field(&alone, values, rates, 1);
+    }
+    for (size_t i = 0; rates && i < problem->n; i++) {
+        finite = finite && isfinite(rates[i]);
+    }
+    free(rates);
+    return finite || gm_refuse(sentence, "the rates are not finite at the start");
+}
+
 /* Returns true if the sizes of the surfaces are positive. */
 static bool has_surfaces(const struct gm_tape *surfaces, const double *values, char *sentence)
 {
@@ -191,7 +208,8 @@ static bool open_problem(const struct gm_system_lane *lane, double *values, stru
         return gm_refuse(sentence, "not enough memory");
     }
     problem->name = system_scene->scene.name;
-    if (gm_action_constraints(problem) > 0 && !starts_on_manifold(problem, values, sentence)) {
+    if ((gm_action_constraints(problem) > 0 && !starts_on_manifold(problem, values, sentence)) ||
+        !has_field(problem, values, sentence)) {
         gm_user_problem_close(problem);
         return false;
     }

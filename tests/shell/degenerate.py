@@ -187,6 +187,9 @@ def refusals():
     timed = system("timed", "coordinates: x y\nL: y*cos(t)*v_x - x^2 - y^2\nstart: x = 0, y = 1\n")
     done = answer("run", timed, "scheme=degenerate-midpoint2")
     check(done.returncode == 1 and "and without t" in done.stderr, done.stderr)
+    # a typed L of this form needs no momenta
+    done = answer("run", "system", "L=q1*v2 - q2*v1 - q1^2 - q2^2", "q1=1", "q2=.5", "dt=.1", "until=2")
+    check(done.returncode == 0, done.stderr)
     # a start that is typed loses the rank, too
     point = system("typed", "coordinates: x y\nL: y^2*v_x - x\nstart: x = 0, y = 1\n")
     done = answer("run", point, "y=0")

@@ -353,6 +353,53 @@ def time_moves_with_the_first_part_without_it():
     check("the name H is reserved" in told, f"a part H: {told}")
 
 
+def certify(*words):
+    done = subprocess.run([GEOMINT, "certify", *words], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def names_mean_parts_of_the_system():
+    system = ("system", "H=p^2/2 + q^2/2 - q^4/9", "q=1", "p=0", "dt=.5", "until=2")
+    named, lettered = (system + (f"part={a} = p^2/2 + q^2/2, {b} = -q^4/9",)
+                       for a, b in (("kinetic", "potential"), ("A", "B")))
+    for scheme in "strang({}, {})", "lie({1}, {0})", "composition(strang({}, {}), lie({}, {}); 1/2, 1/2)":
+        def place(a, b):
+            return scheme.format(a, b, a, b)
+        off = distance(state(*named, "scheme=" + place("kinetic", "potential")),
+                       state(*lettered, "scheme=" + place("A", "B")))
+        check(off == 0, f"{scheme} of parts named kinetic and potential is off by {off}")
+    own = distance(state(*lettered, "scheme=strang(kinetic, potential)"), state(*lettered, "scheme=verlet-position"))
+    check(own == 0, f"the program's kinetic and potential are off by {own}")
+
+
+def certificates_are_not_passed_by_nothing():
+    for words, status, found in (
+            (("relaxed(rk4; L; claims: keeps energy)", "--on", "kepler"), 4, "conserves energy               BROKEN"),
+            (("composition(rk4; 1/2, 1/2; claims: keeps energy)", "--on", "kepler", "dt=.02"), 4,
+             "conserves energy               BROKEN"),
+            (("relaxed(explicit-euler; L; claims: keeps energy)", "--on", "kepler"), 0,
+             "conserves energy               not measured"),
+            (("projected(rk4; H, L)", "--on", "kepler"), 0, "conserves energy               holds"),
+            (("midpoint", "--on", "system", "H=p^2/2e-6 + 1e-6*q^4/4", "q=1", "p=1e-4", "dt=.1"), 0,
+             "conserves quadratic invariants not measured"),
+            (("strang(kepler, interaction)",), 0, "order 2, measured 2.000 (kepler-perturbed)"),
+            (("aba864(D by explicit-euler, E)",), 0, "order 1,")):
+        code, text = certify(*words)
+        check(code == status and found in text, f"{words} ends with {code}: {text}")
+
+
+def best_adds_none_where_none_fits():
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([GEOMINT, "work-precision", "lotka-volterra-L", "scheme=degenerate-midpoint2,best",
+                               "until=1", "--out", folder], capture_output=True, text=True)
+        check(done.returncode == 0 and "degenerate-midpoint2 " in done.stdout, f"best without others: {done.stderr}")
+
+
+def starts_at_a_singularity_are_refused():
+    told = run("charged-particle", "scheme=boris2", "x=0", "y=0", "steps=2")
+    check("not finite at the start" in told, f"boris2 at the singularity: {told}")
+
+
 def rows_do_not_change_a_trajectory():
     with tempfile.NamedTemporaryFile(suffix=".csv") as rows:
         for scheme in ("wisdom-holman2", "aba864(kepler, interaction)", "lie(kepler, interaction)"):
@@ -377,6 +424,10 @@ def main():
         bodies_move_in_jacobi_coordinates()
         faults_are_told(one.name)
     parts_are_typed()
+    names_mean_parts_of_the_system()
+    certificates_are_not_passed_by_nothing()
+    best_adds_none_where_none_fits()
+    starts_at_a_singularity_are_refused()
     time_moves_with_the_first_part_without_it()
     rows_do_not_change_a_trajectory()
     sys.exit(failures > 0)

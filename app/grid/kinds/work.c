@@ -195,8 +195,6 @@ static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
             }
         }
     }
-    gm_arena_refuse_if(grid->arena, !best[0], "best: of the family of %s, %s, no other scheme fits",
-                       like->name, like->family->title);
     for (int k = 0; k < BEST && best[k]; k++) {
         add_scheme(grid, best[k]);
     }

@@ -300,13 +300,14 @@ static double decide(const struct gm_subject *subject, enum gm_claim claim, doub
 /* The state after many smaller steps; false: they fail. */
 static bool go_on(const struct gm_subject *subject, double *end)
 {
-    /* An adaptive scheme may end when no step is possible: the steps before count. */
+    /* An adaptive scheme may end when no step is possible: the steps before count, if there are any. */
     const bool adaptive = subject->scheme->family->adaptive;
     const double dt = adaptive ? subject->dt / 200 : subject->dt / 12,
                  steps = fmax(adaptive ? 1000 : 100, ceil(1.1 * subject->passed / dt));
     double whole[MOST];
     gm_subject_start(subject, whole);
-    return gm_subject_advance(subject, dt, (int64_t)steps, whole, end) || adaptive;
+    return gm_subject_advance(subject, dt, (int64_t)steps, whole, end) ||
+           (adaptive && memcmp(whole, end, gm_subject_components(subject) * sizeof *end) != 0);
 }
 
 static double change_of(const struct gm_kept *kept, const double *from, const double *to)

@@ -185,17 +185,23 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
     }
 }
 
+/* Returns the claims that concern a quantity that a system conserves. */
+static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    const size_t n = subject->problem.n;
+    return gm_kept_claims(kept, subject->start, n, n, subject->scale) |
+           (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
+}
+
 /* Notes the change of a quantity that a system conserves, under every claim that concerns it. */
 static void measure_kept(struct gm_certificate *certificate, const struct gm_subject *subject,
                          const struct gm_kept *kept)
 {
-    const size_t n = subject->problem.n;
     const char *const name = kept->name ? kept->name : subject->problem.name;
     if (subject->problem.line.points > 0 && !is_kept_on_the_grid(subject, kept)) {
         return;
     }
-    const unsigned claims = gm_kept_claims(kept, subject->start, n, n, subject->scale) |
-                            (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
+    const unsigned claims = claims_of(subject, kept);
     const double drift = claims ? gm_drift(subject, kept) : 0;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const enum gm_claim claim = (enum gm_claim)(1u << bit);
@@ -246,7 +252,10 @@ static void measure_held(struct gm_certificate *certificate, const struct gm_sub
         const struct gm_kept kept = {.value = value_of_held, .data = &held};
         row->name = holding->names[held.number];
         row->verdict.tolerance = gm_certificate_claim(certificate, GM_KEEPS_ENERGY)->tolerance;
-        gm_verdict_note(&row->verdict, gm_drift(subject, &kept), subject->problem.name);
+        const double drift = gm_drift(subject, &kept);
+        if (!isnan(drift) || !subject->scheme->family->adaptive) {
+            gm_verdict_note(&row->verdict, drift, subject->problem.name);
+        }
     }
     gm_conserved_close(&held.conserved);
 }
@@ -338,9 +347,32 @@ static bool drifts(const struct quarter *first, const struct quarter *last, doub
     return rests || largest(last) > 2 * largest(first);
 }
 
-/* Notes what becomes of an invariant in 4000 steps. */
+/* Judges claims by an invariant that was followed: a drift beyond ten roundings of each step refutes them, and what
+   could not be decided without a step is not measured. */
+static void judge(struct gm_certificate *certificate, const struct gm_subject *subject,
+                  const struct gm_followed *row, const struct gm_kept *kept, unsigned claims)
+{
+    const double x0 = fabs(kept->value(kept->data, subject->start, NULL)),
+                 rounding = gm_round_off_of(subject, kept) / 100 * fmax(1, x0) / (x0 > 0 ? x0 : 1);
+    const bool refutes = strcmp(row->verdict, "drifts") == 0 && !gm_ode_of(&subject->problem)->rough &&
+                         row->defect > 10 * (double)row->steps * rounding;
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        struct gm_verdict *verdict = &certificate->claims[bit];
+        if (!(claims >> bit & 1)) {
+            continue;
+        }
+        if (row->steps == 0 && verdict->undecided && !verdict->measured) {
+            verdict->undecided = false;
+            verdict->reason = "the scheme makes no step from this start";
+        } else if (refutes && row->defect > verdict->tolerance) {
+            gm_verdict_note(verdict, row->defect, kept->name ? kept->name : subject->problem.name);
+        }
+    }
+}
+
+/* Notes what becomes of an invariant in 4000 steps, and judges the claims that concern it. */
 static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
-                   const struct gm_kept *kept)
+                   const struct gm_kept *kept, unsigned claims)
 {
     enum { QUARTERS = 4, LOOKS = 100, STEPS = 10 };
     const double round_off = 1e-12, x0 = kept->value(kept->data, subject->start, NULL);
@@ -378,6 +410,7 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
         row->verdict =
             drifts(&quarters[0], &quarters[QUARTERS - 1], low, high, scale) ? "drifts" : "oscillates";
     }
+    judge(certificate, subject, row, kept, claims);
     gm_run_close(run);
 }
 
@@ -394,11 +427,12 @@ static void follow_all(struct gm_certificate *certificate, const struct gm_subje
     struct held held = {.number = 0};
     if (energy.value && !(ode->hamiltonian && ode->hamiltonian->partial)) {
         follow(certificate, subject, name,
-               &(const struct gm_kept){.value = gm_invariant_value, .data = &energy});
+               &(const struct gm_kept){.value = gm_invariant_value, .data = &energy}, GM_KEEPS_ENERGY);
     }
     for (size_t i = 0; i < subject->kept_count; i++) {
         if (strcmp(subject->kept[i].name, "energy_error") != 0) {
-            follow(certificate, subject, subject->kept[i].name, &subject->kept[i]);
+            follow(certificate, subject, subject->kept[i].name, &subject->kept[i],
+                   claims_of(subject, &subject->kept[i]));
         }
     }
     for (int number = 1; ode->conserved && number < GM_MOST_FOLLOWED; number++) {
@@ -406,7 +440,7 @@ static void follow_all(struct gm_certificate *certificate, const struct gm_subje
         if (!gm_conserved_open(&held.conserved, &subject->problem, names, 1, lacks)) {
             return;
         }
-        follow(certificate, subject, name, &(const struct gm_kept){.value = value_of_held, .data = &held});
+        follow(certificate, subject, name, &(const struct gm_kept){.value = value_of_held, .data = &held}, 0);
         gm_conserved_close(&held.conserved);
     }
 }

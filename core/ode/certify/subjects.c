@@ -107,7 +107,7 @@ static const struct row {
     {.file = "kepler",
      .value = {"perturbation", "0.05"},
      .dt = 0.3,
-     .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_KEPLER | GM_NEEDS_ATTRACTION,
+     .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_KEPLER | GM_NEEDS_ATTRACTION | GM_NEEDS_PARTS,
      .start = {0.8, 0.1, -0.2, 1.2},
      .kept = {KEPT(angular_momentum)},
      .name = "kepler-perturbed"},

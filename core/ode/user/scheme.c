@@ -37,6 +37,7 @@ struct own {
     struct gm_coefficients exact;
     void *coefficients;
     struct gm_arena *arena; /* the opened scheme's: owns all its parts */
+    struct own *by_names;   /* of drifts and kicks: the splitting into parts of these names; NULL: none */
 };
 
 /* The schemes that a line names. */
@@ -418,13 +419,17 @@ static struct own *make_parts(const struct making *making)
             add_piece(&pieces, (enum gm_piece)k, number_of(1));
         }
     }
+    /* inside another scheme the names alone decide, for its steps do not name parts */
     const bool turned = row.parts == 2 && strcmp(row.list[0].name, "potential") == 0;
-    if (row.parts == 2 && row.corrector == 0 && !row.list[0].by && !row.list[1].by &&
+    if (making->depth == 1 && row.parts == 2 && row.corrector == 0 && !row.list[0].by && !row.list[1].by &&
         strcmp(row.list[turned].name, "kinetic") == 0 && strcmp(row.list[!turned].name, "potential") == 0) {
+        struct pieces drifts = pieces;
         for (int i = 0; i < pieces.count; i++) {
-            pieces.at[i].piece = (pieces.at[i].piece == GM_KICK) != turned ? GM_KICK : GM_DRIFT;
+            drifts.at[i].piece = (pieces.at[i].piece == GM_KICK) != turned ? GM_KICK : GM_DRIFT;
         }
-        return of_pieces(making, &pieces, 0, NULL);
+        struct own *self = of_pieces(making, &drifts, 0, NULL);
+        self->by_names = of_pieces(making, &pieces, 0, &row);
+        return self;
     }
     return of_pieces(making, &pieces, 0, &row);
 }
@@ -977,7 +982,7 @@ static struct gm_theory theory_of_bases(const struct making *making, const struc
 }
 
 /* Claims of a splitting by parts if theory does not apply: the base's, or what follows from its list. A palindrome
-   is symmetric. */
+   is symmetric. Parts that take steps of schemes have at most their order and their symmetry. */
 static struct gm_theory theory_of_parts(const struct making *making, const struct gm_parts_row *row,
                                         const struct named *base)
 {
@@ -995,7 +1000,14 @@ static struct gm_theory theory_of_parts(const struct making *making, const struc
     }
     theory.symmetric = row->parts > 0 ? theory.symmetric : row->of_pieces != NULL;
     theory.order = base->count > 0 ? base->at[0]->order : 1 + theory.symmetric;
-    theory.symmetric = theory.symmetric || claims & GM_SYMMETRIC;
+    bool flows = true;
+    for (size_t k = 0; k < row->parts; k++) {
+        const struct gm_scheme *by = row->list[k].by;
+        flows = flows && !by;
+        theory.order = by && by->order < theory.order ? by->order : theory.order;
+    }
+    theory.symmetric = theory.symmetric || (flows && claims & GM_SYMMETRIC);
+    theory.order += theory.symmetric ? theory.order % 2 : 0;
     return theory;
 }
 
@@ -1090,6 +1102,10 @@ static struct own *make(const struct making *outer, struct gm_span span, const c
     }
     struct own *own = makers[written->kind](&making);
     finish(&making, own, name, title);
+    if (own->by_names) {
+        finish(&making, own->by_names, name, title);
+        own->row.by_names = &own->by_names->row;
+    }
     return own;
 }
 

@@ -259,22 +259,12 @@ static void open_formula(struct work *work, struct part *part, const char *name,
     part->how = slopes == 0 ? SHEAR : part->flow.constant && n <= GM_NEWTON_LARGEST ? EXPONENTIAL : SERIES;
 }
 
-/* Returns true if the file gives a part of that name. */
-static bool is_given(const struct gm_parts *parts, const char *name)
-{
-    bool given = false;
-    for (size_t i = 0; parts && i < parts->given; i++) {
-        given = given || strcmp(parts->names[i], name) == 0;
-    }
-    return given;
-}
-
 /* Opens a part by its name: what the structure's facets solve, unless the file gives the name, or a formula. */
 static void open_part(struct work *work, struct part *part, const struct gm_named_part *named)
 {
     const struct gm_ode *ode = gm_ode_of(work->problem);
     const char *name = named->name;
-    const bool given = named->by || is_given(ode->parts, name);
+    const bool given = named->by || gm_part_is_given(work->problem, name);
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
         *part = (struct part){.how = KEPLER, .inverse_mass = 1, .mu = 1};
@@ -732,7 +722,7 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
     const bool kinetic = strcmp(name, "kinetic") == 0;
-    if (ode->split && (kinetic || strcmp(name, "potential") == 0) && !is_given(ode->parts, name)) {
+    if (ode->split && (kinetic || strcmp(name, "potential") == 0) && !gm_part_is_given(problem, name)) {
         return kinetic ? "a drift" : words[KICK];
     }
     const struct gm_parts_row row = {.list = {{name, NULL}}};

@@ -4,6 +4,10 @@
 #ifndef GM_CORE_ODE_FAMILIES_SPLITTING_SPLITTING_H
 #define GM_CORE_ODE_FAMILIES_SPLITTING_SPLITTING_H
 
+#include <stdbool.h>
+
+struct gm_problem;
+
 enum { GM_SPLITTING_PIECES = 255 };
 
 enum gm_piece { GM_DRIFT, GM_KICK };
@@ -21,5 +25,8 @@ struct gm_splitting {
 struct gm_three {
     double first, drift, last;
 };
+
+/* Returns true if the system itself gives a part of that name. */
+bool gm_part_is_given(const struct gm_problem *problem, const char *name);
 
 #endif
