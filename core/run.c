@@ -507,7 +507,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         const int64_t before = run->steps;
         if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
             pass_events(run);
-        } else if (!locates || !step_across(run)) {
+        } else if (!locates || run->status == GM_OUT_OF_MEMORY || !step_across(run)) {
             break;
         }
         steps--;
