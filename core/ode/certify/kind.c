@@ -185,10 +185,13 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
     }
 }
 
-/* Returns the claims that concern a quantity that a system conserves. */
+/* Returns the claims that concern a quantity that a system conserves; none if differences in space change it. */
 static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     const size_t n = subject->problem.n;
+    if (subject->problem.line.points > 0 && !is_kept_on_the_grid(subject, kept)) {
+        return 0;
+    }
     return gm_kept_claims(kept, subject->start, n, n, subject->scale) |
            (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
 }
@@ -198,9 +201,6 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
                          const struct gm_kept *kept)
 {
     const char *const name = kept->name ? kept->name : subject->problem.name;
-    if (subject->problem.line.points > 0 && !is_kept_on_the_grid(subject, kept)) {
-        return;
-    }
     const unsigned claims = claims_of(subject, kept);
     const double drift = claims ? gm_drift(subject, kept) : 0;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
