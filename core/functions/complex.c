@@ -13,8 +13,8 @@ static double complex quotient(double a, double b, double c, double d)
 {
     const double ratio = d / c, below = c + d * ratio;
     const bool good = fabs(ratio) > DBL_MIN;
-    return CMPLX((good ? a + b * ratio : a + d * (b / c)) / below,
-                 (good ? b - a * ratio : b - d * (a / c)) / below);
+    return __builtin_complex((good ? a + b * ratio : a + d * (b / c)) / below,
+                             (good ? b - a * ratio : b - d * (a / c)) / below);
 }
 
 double complex gm_cdivide(double complex x, double complex y)
