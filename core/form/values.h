@@ -18,10 +18,9 @@ struct gm_form_values {
     double *const *arcs;              /* for each item of the system: s at the points of its samples */
     struct gm_hodge *hodge;           /* NULL: no step needs it */
     double time;                      /* of the samples; NaN: none were made */
-    unsigned
-        fixed; /* what steps need that never changes, set before the first run: bits as those of a step's needs */
-    bool *zero; /* of each step, found by the first run: it is 0 whatever the forms are */
-    bool *idle; /* later runs leave it out: its value stays, or nothing needs it */
+    unsigned fixed; /* set before the first run: those bits of steps' needs that never change */
+    bool *zero;     /* of each step, found by the first run: it is 0 whatever the forms are */
+    bool *idle;     /* later runs leave it out: its value stays, or nothing needs it */
 };
 
 /* Called in a body of the arena, which owns all. `variables` has the values of all variables of the system. */

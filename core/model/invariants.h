@@ -23,9 +23,8 @@ struct gm_found_invariants {
     size_t candidates; /* products of components and parts */
     struct gm_found_invariant *list;
     size_t count, independent;
-    size_t unwritten; /* further invariants: their coefficients are not short fractions */
-    const char
-        *lacks; /* the reason why nothing was searched, in words; NULL: it was. `independent` is then 0 */
+    size_t unwritten;  /* further invariants: their coefficients are not short fractions */
+    const char *lacks; /* the reason why nothing was searched, in words, with `independent` 0; NULL: it was */
 };
 
 /* Finds the polynomial invariants up to a degree, for the system's values of parameters. Inside a body of the arena,

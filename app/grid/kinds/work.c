@@ -162,8 +162,8 @@ static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
     line->credited = gm_arena_take(grid->arena, line->count, sizeof *line->credited);
 }
 
-/* The built-in schemes of the first one's family, or of its base's, that promise the smallest error at equal cost: the smallest
-   error constant by theory, of its order before those of other orders. */
+/* Adds the built-in schemes of the first one's family, or of its base's, that promise the smallest error at equal cost:
+   the smallest error constant by theory, of its order before those of other orders. It adds none if none fits. */
 static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
 {
     enum { BEST = 3 };
