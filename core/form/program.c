@@ -24,12 +24,12 @@ struct part {
 
 /* A node of the graph. */
 struct known {
-    bool marked;   /* a root needs it */
     bool of_forms; /* it depends on forms or their operators */
     bool of_place; /* on x, y, z */
     bool of_time;
     bool of_arc;      /* on s */
-    struct part part; /* if it is marked */
+    bool begun, made; /* its compilation */
+    struct part part; /* if it is made */
 };
 
 struct compiling {
@@ -518,6 +518,39 @@ static struct part inner(struct compiling *compiling, struct part a, struct part
     return reduced(compiling, GM_STEP_SUM, operate(compiling, GM_OPERATION_MULTIPLY, a, other));
 }
 
+static void mark_operands(const struct gm_user_system *system, bool *marked, size_t end);
+static void compile_nodes(struct compiling *compiling, const bool *marked, size_t end);
+
+/* The integrals along edges of what line `item` gives a let: of a density, or a 1-form. */
+static struct part along_edges(struct compiling *compiling, size_t item)
+{
+    const gm_node_id value = compiling->system->items[item].nodes[0], now = compiling->now;
+    if (!compiling->known[value].of_forms) {
+        compiling->along = item + 1;
+        const struct part along =
+            sampled(compiling, (struct part){{GM_FORM_PLACE, false}, NONE, value}, primal_1);
+        compiling->along = 0;
+        return along;
+    }
+    bool *marked = gm_arena_take(compiling->arena, compiling->nodes, sizeof *marked);
+    marked[value] = true;
+    mark_operands(compiling->system, marked, (size_t)value + 1);
+    compile_nodes(compiling, marked, (size_t)value + 1);
+    compiling->now = now;
+    const struct part density = decided(compiling, compiling->known[value].part);
+    if (same(density.type, primal_1)) { /* in the sense of the boundary */
+        return times(compiling, GM_MATRIX_OUT, density, primal_1);
+    }
+    require(compiling, density.type.degree == GM_FORM_NUMBER || same(density.type, primal_0),
+            "what a let has on the boundary is a 1-form, or its density: a number or a 0-form", density);
+    const gm_node_id one = gm_formula_constant(&compiling->system->graph, 1);
+    const struct part length = made(
+        compiling,
+        (struct gm_form_step){.kind = GM_STEP_SAMPLE, .type = primal_1, .components = 1, .nodes = {one}});
+    return density.type.degree == 0 ? wedge(compiling, density, length)
+                                    : operate(compiling, GM_OPERATION_MULTIPLY, density, length);
+}
+
 /* Adds what lines `boundary:` of a let, a dual 1-form, give to its derivative: the parts of dual cells that lie on
    the boundary. */
 static struct part closed(struct compiling *compiling, gm_node_id let, struct part derivative)
@@ -528,14 +561,10 @@ static struct part closed(struct compiling *compiling, gm_node_id let, struct pa
         if (item->word != GM_WORD_BOUNDARY || item->count < 2 || item->nodes[1] != let) {
             continue;
         }
-        const struct part formula = {{GM_FORM_PLACE, false}, NONE, item->nodes[0]};
-        if (derivative.type.degree != 2 || !derivative.type.dual ||
-            compiling->known[item->nodes[0]].of_forms) {
-            refuse(compiling, "a boundary of a let is a formula along a dual 1-form");
+        if (derivative.type.degree != 2 || !derivative.type.dual) {
+            refuse(compiling, "a boundary of a let is along a dual 1-form");
         }
-        compiling->along = i + 1;
-        const struct part along = sampled(compiling, formula, primal_1);
-        compiling->along = 0;
+        const struct part along = along_edges(compiling, i);
         derivative = operate(compiling, GM_OPERATION_ADD, derivative,
                              made_of(compiling, GM_STEP_CLOSING, i, along, derivative.type));
     }
@@ -666,39 +695,58 @@ static struct part compile(struct compiling *compiling, gm_node_id id)
     return operate(compiling, node.operation, a, a);
 }
 
-/* Marks what the roots need, from above, and then what depends on forms, place and time, from below. */
-static void survey(struct compiling *compiling)
+/* Marks what marked nodes with numbers below `end` are made of, which have lower numbers. */
+static void mark_operands(const struct gm_user_system *system, bool *marked, size_t end)
 {
-    const struct gm_user_system *system = compiling->system;
-    const size_t nodes = compiling->nodes = system->graph.count;
-    struct known *known = compiling->known = gm_arena_take(compiling->arena, nodes + 1, sizeof *known);
-    for (size_t i = 0; i < compiling->program->root_count; i++) {
-        known[compiling->roots[i].node].marked = true;
-    }
-    for (size_t i = 0; i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_BOUNDARY && item->count > 1) { /* of a let */
-            known[item->nodes[0]].marked = true;
-        }
-    }
-    for (size_t i = nodes; i > 0; i--) {
-        const struct gm_node *node = &system->graph.nodes[i - 1];
-        if (!known[i - 1].marked || node->operation == GM_CONSTANT) {
+    for (size_t i = end; i-- > 0;) {
+        const struct gm_node *node = &system->graph.nodes[i];
+        if (!marked[i] || node->operation == GM_CONSTANT) {
             continue;
         }
         if (node->operation == GM_VARIABLE) {
             const size_t call = node->a - system->first_call;
             for (size_t k = 0; node->a >= system->first_call && k < system->calls[call].count; k++) {
-                known[system->calls[call].operands[k]].marked = true;
+                marked[system->calls[call].operands[k]] = true;
             }
             continue;
         }
-        known[node->a].marked = known[gm_second_operand(node)].marked = true;
+        marked[node->a] = marked[gm_second_operand(node)] = true;
     }
+}
+
+/* Compiles the marked nodes below `end` that were not compiled before. */
+static void compile_nodes(struct compiling *compiling, const bool *marked, size_t end)
+{
+    for (gm_node_id i = 0; i < end; i++) {
+        struct known *known = &compiling->known[i];
+        if (marked[i] && !known->made) {
+            compiling->now = i;
+            if (known->begun) {
+                refuse(compiling, "what a let has on the boundary depends on itself");
+            }
+            known->begun = true;
+            known->part = compile(compiling, i);
+            known->made = true;
+        }
+    }
+}
+
+/* Marks what the roots need, and then what depends on forms, place and time. What lines `boundary:` give to lets is
+   looked at as well, and compiled where d of the let is. */
+static bool *survey(struct compiling *compiling)
+{
+    const struct gm_user_system *system = compiling->system;
+    const size_t nodes = compiling->nodes = system->graph.count;
+    struct known *known = compiling->known = gm_arena_take(compiling->arena, nodes + 1, sizeof *known);
+    bool *marked = gm_arena_take(compiling->arena, nodes + 1, sizeof *marked);
+    for (size_t i = 0; i < compiling->program->root_count; i++) {
+        marked[compiling->roots[i].node] = true;
+    }
+    mark_operands(system, marked, nodes);
     for (size_t i = 0; i < nodes; i++) {
         const struct gm_node *node = &system->graph.nodes[i];
         struct known *here = &known[i];
-        if (!here->marked || node->operation == GM_CONSTANT) {
+        if (node->operation == GM_CONSTANT) {
             continue;
         }
         if (node->operation == GM_VARIABLE) {
@@ -715,6 +763,7 @@ static void survey(struct compiling *compiling)
         here->of_time = a->of_time || b->of_time;
         here->of_arc = a->of_arc || b->of_arc;
     }
+    return marked;
 }
 
 /* The step of a root, of the type that it has to be. */
@@ -750,12 +799,8 @@ static void compile_all(struct gm_arena *arena, void *data)
     struct gm_form_program *program = compiling->program;
     compiling->arena = arena;
     program->roots = gm_arena_take(arena, program->root_count + 1, sizeof *program->roots);
-    survey(compiling);
-    for (size_t i = 0; i < compiling->nodes; i++) {
-        if (compiling->known[i].marked) {
-            compiling->known[i].part = compile(compiling, (gm_node_id)i);
-        }
-    }
+    const bool *marked = survey(compiling);
+    compile_nodes(compiling, marked, compiling->nodes);
     for (size_t i = 0; i < program->root_count; i++) {
         finish(compiling, &compiling->roots[i], &program->roots[i]);
     }

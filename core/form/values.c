@@ -434,6 +434,8 @@ struct gm_matrix gm_form_values_matrix(const struct gm_form_values *values, stru
             inner += n;
         } else if (step->kind == GM_STEP_MATRIX && parts[step->a].start) {
             parts[i] = gm_matrix_product(arena, &values->space->matrix[step->number], &parts[step->a]);
+        } else if (step->kind == GM_STEP_CLOSING && parts[step->a].start) {
+            parts[i] = gm_matrix_product(arena, &values->closings[step->number], &parts[step->a]);
         }
         most += gm_matrix_count(&solved[i]);
     }

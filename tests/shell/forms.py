@@ -428,6 +428,49 @@ check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of other f
 found = written(MADE.replace("left q = v", "left q = u"))
 check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of values that are held: {found}")
 
+# a boundary that a form gives to a let: a disc loses h u through its rim. Steady heating has a closed form; the slowest
+# mode is J0(k r) exp(-k^2 t) with k J1(k) = h J0(k). Two lets have the same rim.
+ROBIN = """geomint: 1
+mesh: disc 1 n
+parameter: n = 8; 1 .. 99
+parameter: h = 0.7; 0 .. 9
+field: u = 0-form
+rate: u = star(d(q))
+let: q = star(d(u))
+boundary: rim q = -h*u
+unknown: w = 0-form
+equation: w; -star(d(flux)) = 4
+let: flux = star(d(w))
+boundary: rim flux = -h*w
+start: u = mode
+exact: u = mode*exp(-k2*t), w = 1 - x^2 - y^2 + 2/h
+schemes: gauss4 rk4
+dt: 0.01
+until: 0.2
+"""
+
+
+def bessel(order, k):
+    return sum((-1) ** m * (k / 2) ** (2 * m + order) / math.factorial(m) / math.factorial(m + order) for m in range(12))
+
+
+low, high = 0.5, 2
+for _ in range(60):
+    k = (low + high) / 2
+    low, high = (low, k) if k * bessel(1, k) > 0.7 * bessel(0, k) else (k, high)
+mode = " + ".join(f"{(-k * k / 4) ** m / math.factorial(m) ** 2!r}*r2^{m}" for m in range(1, 9))
+ROBIN = ROBIN.replace("mode", f"(1 + {mode})").replace("k2", repr(k * k)).replace("start:", "let: r2 = x^2 + y^2\nstart:")
+coarse, fine = written(ROBIN), written(ROBIN, "n=16")
+for name in ("u_error", "w_error"):
+    check(fine[name] < 5e-4 and 1.9 < math.log2(coarse[name] / fine[name]) < 2.1, f"Robin's boundary, {name}: {coarse} {fine}")
+explicit = written(ROBIN, "scheme=rk4", "dt=.001")
+check(abs(coarse["u_error"] / explicit["u_error"] - 1) < 1e-4, f"Robin's boundary by rk4: {explicit}")
+for value in ("-h*integral(u)/integral(1)", "form(-y, x)", "d(u)"):  # a number, a 1-form by its components, a 1-form
+    found = written(ROBIN.replace("rim q = -h*u", f"rim q = {value}") + "observe: lost = integral(rate)\nlet: rate = d(q)\nobserve: mean = integral(u)\n")
+    wanted = {"d(u)": 0, "form(-y, x)": 48 * math.sin(2 * math.pi / 48)}.get(
+        value, -0.7 * found["mean"] / found["area"] * 96 * math.sin(math.pi / 48))
+    check(abs(found["lost"] - wanted) < 1e-12, f"through the rim by {value}: {found['lost']}, not {wanted}")
+
 status, out, err = run(["form-wave", "mesh=there/is/none.msh"])
 check(status == 3 and "could not be read" in err, f"a mesh that is not there exits {status}: {err}")
 for words, sentence in (
@@ -448,6 +491,10 @@ REFUSED += [
     (MADE, "left q = v", "left q = s*v", "6:20: s, the length along a part of the boundary, is in formulas without forms"),
     (MADE, "left q = v", "left q = d(v)", "6:20: d(v) is a 1-form, and has to be a 0-form here"),
     (MADE, "rate: v = 2*t", "rate: v = s", "8:11: there is no name s"),
+    (ROBIN, "rim q = -h*u", "rim q = star(d(q))", "6:16: what a let has on the boundary depends on itself"),
+    (ROBIN, "rim q = -h*u", "rim q = star(u)", "6:16: what a let has on the boundary is a 1-form, or its density: a number or a 0-form, "
+     "and this is a dual 2-form"),
+    (ROBIN, "let: q = star(d(u))", "let: q = d(u)", "6:16: a boundary of a let is along a dual 1-form"),
     (STEADY, "u = 0-form\nequation: u; -laplace(u) = x*y", "u = 0-form, v = dual 1-form\nlet: a = star(v)\nequation: u; u = 1\n"
      "equation: v; v = star(u)", "6:14: v is a dual 1-form and star(u) a dual 2-form: they cannot be added"),
     (STEADY, "= x*y", "= x*y" + "".join(f"\nlet: a{i} = {i}*u" for i in range(1, 63)), "66:12: a system has at most 62 forms"),

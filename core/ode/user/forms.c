@@ -938,8 +938,8 @@ static void mark_part(const struct own *own, const char *line, const char *part,
     }
 }
 
-/* Makes the matrices of lines that close dual cells: half of an edge belongs to each of its ends. Later lines
-   win. */
+/* Makes the matrices of lines that close dual cells: half of an edge belongs to each of its ends. Later lines of the
+   same let win. */
 static void make_closings(struct own *own)
 {
     const struct gm_user_system *system = own->model->system;
@@ -947,19 +947,28 @@ static void make_closings(struct own *own)
     struct gm_arena *arena = own->arena;
     own->closings = gm_arena_take(arena, system->item_count + 1, sizeof *own->closings);
     bool *edges = gm_arena_take(arena, complex->edges, sizeof *edges),
-         *taken = gm_arena_take(arena, complex->edges, sizeof *taken);
-    for (size_t i = system->item_count; i-- > 0;) {
+         *later = gm_arena_take(arena, complex->edges, sizeof *later);
+    for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word != GM_WORD_BOUNDARY || item->count < 2) {
             continue;
         }
-        struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
         mark_part(own, "boundary", item->name, edges);
+        for (size_t j = i + 1; j < system->item_count; j++) {
+            const struct gm_system_item *next = &system->items[j];
+            if (next->word != GM_WORD_BOUNDARY || next->count < 2 || next->nodes[1] != item->nodes[1]) {
+                continue;
+            }
+            mark_part(own, "boundary", next->name, later);
+            for (size_t e = 0; e < complex->edges; e++) {
+                edges[e] &= !later[e];
+            }
+        }
+        struct gm_matrix_entries entries = gm_matrix_entries(arena, 2 * complex->edges);
         for (size_t e = 0; e < complex->edges; e++) {
-            for (size_t k = 0; k < 2 && edges[e] && !taken[e]; k++) {
+            for (size_t k = 0; k < 2 && edges[e]; k++) {
                 gm_matrix_put(&entries, (size_t)complex->edge[2 * e + k], e, 0.5);
             }
-            taken[e] |= edges[e];
         }
         own->closings[i] = gm_matrix_of(&entries, complex->vertices, complex->edges);
     }
