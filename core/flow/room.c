@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms of files: the lines that systems do not have, and what they say to sides of a mesh's boundary. */
 #include "core/flow/room.h"
+
 #include "core/basics.h"
 #include "core/expression/number.h"
+#include "core/flow/observed.h"
 #include "core/functions/functions.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
@@ -44,13 +46,14 @@ static const struct {
                        1u << GM_ROOM_STREAM_FUNCTION, EXACT},
 };
 
-/* The variables that a formula may hold, by their numbers among a room's; the time has one more. */
+/* The variables that a formula may hold, by their numbers among a room's; the time and all forms follow. */
 enum {
     TIME = GM_ROOM_VARIABLES,
+    FORMS,
     AT = 1u << GM_ROOM_AT_X | 1u << GM_ROOM_AT_Y,
     MEASURES =
         1u << GM_ROOM_PERIMETER | 1u << GM_ROOM_AREA | 1u << GM_ROOM_INLET_LENGTH | 1u << GM_ROOM_UNTIL,
-    ALL = (2u << TIME) - 1
+    ALL = (2u << FORMS) - 1
 };
 
 /* A room while it is read, and the variables that the formula may hold that is read now. */
@@ -83,14 +86,16 @@ static const char *withheld(struct gm_reading *reading, gm_node_id part)
     for (size_t i = 0; parts && i < count; i++) {
         const struct gm_node *node = &system->graph.nodes[parts[i]];
         if (node->operation == GM_VARIABLE) {
-            held |= 1u << (node->a == system->n ? TIME : node->a - system->velocities);
+            const bool form = node->a < system->n || node->a >= system->first_call;
+            held |= 1u << (form ? FORMS : node->a == system->n ? TIME : node->a - system->velocities);
         }
     }
     free(parts);
     gm_arena_need(system->arena, parts != NULL);
     here->timed |= held >> TIME & 1;
     held &= ~here->may;
-    return held >> TIME & 1
+    return held >> FORMS & 1 ? "forms of the flow, such as psi, are for the lines let: and observe:"
+           : held >> TIME & 1
                ? "what a room's boundary gives may change in time: no start, no source and no place"
            : held >> GM_ROOM_PART & 1 ? "s runs along an inlet; only the inlet's formulas may contain it"
            : held & AT ? "a flow is that of a whole side, and a place is two numbers: neither holds x and y"
@@ -127,7 +132,10 @@ double gm_room_evaluate(const struct gm_room *room, gm_node_id node)
 static void put_place(const struct gm_room *room, const double at[4])
 {
     const struct gm_user_system *system = &room->system;
-    memcpy(room->values + system->velocities + GM_ROOM_PART, at, 3 * sizeof *at);
+    double *place = room->values + system->velocities;
+    place[GM_ROOM_PART] = at[0];
+    place[GM_ROOM_AT_X] = at[1];
+    place[GM_ROOM_AT_Y] = at[2];
     room->values[system->n] = at[3];
 }
 
@@ -506,12 +514,20 @@ static void read_table(struct room_reading *here, const struct gm_read_line *lin
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE */
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE, or NAME = formula; title TEXT */
 static void read_observed(struct room_reading *here, const struct gm_read_line *line)
 {
-    struct gm_span rest = line->value, key;
-    gm_span_take(here->reading.text, &rest, ";", &key);
-    gm_options_read(&here->reading, gm_reading_item(&here->reading, line, key), rest);
+    struct gm_reading *reading = &here->reading;
+    struct gm_span rest = line->value, key, name;
+    gm_span_take(reading->text, &rest, ";", &key);
+    const bool formula = gm_span_until(reading->text, key, "=") < key.end;
+    gm_span_take(reading->text, &key, "=", &name);
+    struct gm_system_item *item = gm_reading_item(reading, line, name);
+    if (formula) {
+        reading->without_forms = false;
+        add_formula(here, item, key, AT | 1u << TIME | 1u << FORMS);
+    }
+    gm_options_read(reading, item, rest);
 }
 
 static void read_validity(struct room_reading *here, const struct gm_read_line *line)
@@ -601,6 +617,7 @@ static bool read_own(struct gm_reading *reading, const struct gm_read_line *line
                 {GM_WORD_TABLE, read_table},      {GM_WORD_GRAPH, read_graph},
                 {GM_WORD_COLOURS, read_colours},  {GM_WORD_LEVELS, read_levels}};
     struct room_reading *here = (struct room_reading *)reading;
+    reading->without_forms = true; /* but in lets, which were read before */
     if (gm_system_words[line->word].identity == GM_LINE_NAMED) {
         check_name(reading, line);
     }
@@ -723,6 +740,26 @@ static void complete(struct gm_room *room, const struct gm_room_input *input)
     complete_heat(room);
 }
 
+/* Compiles the observables that lines observe: define. */
+static void compile_observed(struct gm_room *room)
+{
+    struct gm_user_system *system = &room->system;
+    struct gm_form_root *roots = gm_arena_take(system->arena, system->item_count + 1, sizeof *roots);
+    struct gm_fault fault;
+    size_t count = 0;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_OBSERVE && item->count > 0) {
+            roots[count++] = (struct gm_form_root){
+                .node = item->nodes[0], .type = {GM_FORM_NUMBER, false}, .place = item->place};
+        }
+    }
+    if (!gm_form_compile(&room->observed, system, roots, count, false, &fault)) {
+        gm_arena_need(system->arena, fault.sentence[0]);
+        gm_system_refuse(system, fault.offset, "%s", fault.sentence);
+    }
+}
+
 static void close_arena(void *arena)
 {
     gm_arena_close(arena);
@@ -764,6 +801,7 @@ void gm_room_read(struct gm_arena *arena, struct gm_room *room, const struct gm_
         room->values[i] = NAN;
     }
     complete(room, input);
+    compile_observed(room);
     gm_system_need_graph(system);
 }
 
@@ -1250,6 +1288,9 @@ static void make_flow(struct gm_arena *arena, void *data)
         flow->reynolds =
             flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
         flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
+    }
+    if (room->observed.root_count > 0) {
+        room->forms = gm_flow_forms_open(arena, room, flow);
     }
     const char *scalar = room->system.texts[GM_WORD_SCALAR];
     flow->scalar = !scalar || strcmp(scalar, "none") != 0;

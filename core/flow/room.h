@@ -6,6 +6,7 @@
 #include "core/flow/boundary.h"
 #include "core/form/generators.h"
 #include "core/form/gmsh.h"
+#include "core/form/program.h"
 #include "core/model/system.h"
 
 #include <stdint.h>
@@ -86,6 +87,8 @@ struct gm_room {
     double viscosity, diffusivity, reynolds,
         schmidt;                            /* NAN: not given; the first two follow from the others */
     bool timed;                             /* a boundary value depends on t */
+    struct gm_form_program observed;        /* its roots: formulas of lines observe: */
+    struct gm_flow_forms *forms;            /* their values, once the flow is made (core/flow/observed.h) */
     double buoyancy, reference_temperature; /* NAN: without heat */
 };
 

@@ -258,7 +258,6 @@ bool gm_form_space_hold(struct gm_form_space *space, const bool *held)
 static void make(struct gm_arena *arena, void *data)
 {
     struct gm_form_space *space = data;
-    gm_arena_keep(arena, space->complex, gm_complex_close);
     make_derivatives(space);
     make_stars(space);
     space->dual_vertex = gm_arena_take(arena, 3 * space->complex->triangles, sizeof(double));
@@ -276,7 +275,6 @@ bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex)
 {
     *space = (struct gm_form_space){.arena = gm_arena_open(), .complex = complex};
     if (!space->arena) {
-        gm_complex_close(complex);
         return false;
     }
     if (!gm_arena_run(space->arena, make, space)) {

@@ -77,7 +77,7 @@ struct gm_form_space {
    when out of memory. */
 struct gm_cholesky *gm_matrix_factor(struct gm_arena *arena, const struct gm_matrix *a);
 
-/* Takes the complex; false when out of memory, and nothing to close. */
+/* The complex outlives the space. False when out of memory, and nothing to close. */
 bool gm_form_space_open(struct gm_form_space *space, struct gm_complex *complex);
 void gm_form_space_close(void *space); /* for arenas too */
 

@@ -509,8 +509,9 @@ static void arrange(struct gm_reading *reading)
         other->name = gm_arena_print(system->arena, i < n ? "%s(0)" : "exact(%s)", all[i % n].name);
         system->variable_count++;
     }
-    if (gm_system_is_form(system)) {
-        system->first_call = system->velocities + GM_FORM_PLACES;
+    if (gm_system_is_form(system) || gm_system_is_room(system)) {
+        system->first_call =
+            system->velocities + (gm_system_is_room(system) ? GM_ROOM_VARIABLES : GM_FORM_PLACES);
         system->calls = gm_arena_take(system->arena, GM_MOST_FORM_CALLS, sizeof *system->calls);
     }
     all[n].value = 0; /* unless the start names another time */
@@ -596,6 +597,13 @@ static void add_forms(struct gm_reading *reading, enum gm_system_word word)
     }
 }
 
+/* Adds a variable that no formula finds by a name. */
+static void add_unnamed(struct gm_reading *reading, const char *name, size_t *count)
+{
+    ++*count;
+    add_variable(reading, &(struct gm_entry){.name = name});
+}
+
 /* Adds the place, and unnamed variables for operators. */
 static void add_places(struct gm_reading *reading)
 {
@@ -604,8 +612,59 @@ static void add_places(struct gm_reading *reading)
         add_place(reading, places[i], 0);
     }
     for (size_t i = 0; i < 1 + GM_MOST_FORM_CALLS; i++) { /* s is found on parts of the boundary alone */
-        reading->velocity_count++;
-        add_variable(reading, &(struct gm_entry){.name = i > 0 ? "" : places[GM_FORM_PLACES - 1]});
+        add_unnamed(reading, i > 0 ? "" : places[GM_FORM_PLACES - 1], &reading->velocity_count);
+    }
+}
+
+/* True if the file has a parameter, a choice or a let of that name. */
+static bool defines(const struct gm_reading *reading, const char *name)
+{
+    const size_t length = strlen(name);
+    bool found = gm_reading_entry(reading, name, length, false, 0) != NULL;
+    for (size_t i = 0; i < reading->line_count && !found; i++) {
+        const struct gm_read_line *line = &reading->lines[i];
+        const size_t begin = line->value.begin;
+        found = line->word == GM_WORD_LET &&
+                gm_name_length(reading->text + begin, line->value.end - begin) == length &&
+                strncmp(reading->text + begin, name, length) == 0;
+    }
+    return found;
+}
+
+/* Adds the forms of a room's flow, unless the file takes a name for something else, and its other variables. */
+static void add_room(struct gm_reading *reading)
+{
+    static const struct {
+        const char *name;
+        struct gm_form_declared form;
+    } rows[GM_ROOM_FORMS] = {[GM_ROOM_PSI] = {"psi", {0, false}},
+                             [GM_ROOM_W] = {"w", {2, true}},
+                             [GM_ROOM_U] = {"u", {1, true}},
+                             [GM_ROOM_THETA] = {"scalar", {0, false}},
+                             [GM_ROOM_WARMTH] = {"temperature", {0, false}}};
+    struct gm_user_system *system = reading->system;
+    system->forms = gm_arena_take(system->arena, GM_ROOM_FORMS, sizeof *system->forms);
+    for (size_t i = 0; i < GM_ROOM_FORMS; i++) {
+        const char *name = rows[i].name;
+        system->forms[i] = rows[i].form;
+        if (defines(reading, name) || (i == GM_ROOM_WARMTH && !gm_reading_line(reading, GM_WORD_BUOYANCY))) {
+            add_unnamed(reading, "", &reading->component_count);
+        } else {
+            add_name(reading, (struct gm_entry){.name = name,
+                                                .length = strlen(name),
+                                                .role = GM_ENTRY_COMPONENT,
+                                                .number = reading->component_count++});
+        }
+    }
+    for (size_t i = 0; i < GM_ROOM_VARIABLES; i++) {
+        if (gm_room_variables[i][0]) {
+            add_place(reading, gm_room_variables[i], 0);
+        } else {
+            add_unnamed(reading, "", &reading->velocity_count);
+        }
+    }
+    for (size_t i = 0; i < GM_MOST_FORM_CALLS; i++) {
+        add_unnamed(reading, "", &reading->velocity_count);
     }
 }
 
@@ -660,9 +719,7 @@ void gm_declared_state(struct gm_reading *reading)
     } else if (kind == GM_MATRICES) {
         add_counted(reading, components, 2, GM_MOST_OF_MATRICES, "components, as in components: u v w");
     } else if (kind == GM_ROOM) {
-        for (size_t i = 0; i < GM_ROOM_VARIABLES; i++) {
-            add_place(reading, gm_room_variables[i], 0);
-        }
+        add_room(reading);
     } else if (kind == GM_FORMS) {
         add_forms(reading, GM_WORD_FIELD);
         add_forms(reading, GM_WORD_UNKNOWN);

@@ -165,13 +165,14 @@ static bool is_place(const struct gm_reading *reading, const struct gm_entry *en
 }
 
 const char *const gm_room_variables[GM_ROOM_VARIABLES + 1] = {
-    "s", "x", "y", "perimeter", "area", "inlet_length", "until", NULL};
+    "x", "y", "", "s", "perimeter", "area", "inlet_length", "until", NULL};
 
 /* True for a name that a room reserves: of its variables, and all that systems reserve, except show. */
 static bool is_of_room(const struct gm_entry *entry)
 {
     const struct gm_span name = {0, entry->length};
     return entry->role != GM_ENTRY_VELOCITY && entry->role != GM_ENTRY_TIME &&
+           entry->role != GM_ENTRY_COMPONENT &&
            (gm_room_variables[gm_span_among(entry->name, name, gm_room_variables)] ||
             (gm_reading_reserves(entry->name, entry->length) && !gm_span_is(entry->name, name, "show")));
 }
@@ -420,16 +421,17 @@ static bool is_part(void *data, const struct gm_name *called, const struct gm_na
 
 static struct gm_scope scope_of(struct gm_reading *reading)
 {
-    const bool form = gm_system_is_form(reading->system), calls = form && !reading->context.fixed;
+    const bool form = gm_system_is_form(reading->system), room = gm_system_is_room(reading->system),
+               calls = (form || (room && !reading->without_forms)) && !reading->context.fixed;
     return (struct gm_scope){.find = find,
                              .known = known,
                              .definition = definition_of,
                              .calls = calls ? is_operator : NULL,
                              .call = calls ? call : NULL,
-                             .word = calls ? is_part : NULL,
+                             .word = calls && form ? is_part : NULL,
                              .data = reading,
                              .lines = true,
-                             .initial = !form && !gm_system_is_room(reading->system),
+                             .initial = !form && !room,
                              .exact = reading->context.exact};
 }
 

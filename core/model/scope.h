@@ -65,6 +65,7 @@ struct gm_reading {
     /* Rooms only: reads a line, or returns false to leave it to the reader of systems; and returns why a formula
        may not hold a part, or NULL. */
     bool (*line)(struct gm_reading *reading, const struct gm_read_line *line);
+    bool without_forms; /* a formula is read that may not hold forms of the flow */
     const char *(*withheld)(struct gm_reading *reading, gm_node_id part);
 };
 

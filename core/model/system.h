@@ -40,12 +40,13 @@ enum { GM_MOST_TANGENTS = 8 };
 /* The most components of a system of matrices. */
 enum { GM_MOST_OF_MATRICES = 8 };
 
-/* The last variables of a room, which is given at a place and a time: the part of an inlet, the place, and
+/* The last variables of a room before calls: the place and the part of an inlet, as systems of forms have them, and
    measures of its flow, once that is made. Parameters are constants in its formulas. */
 enum gm_room_variable {
-    GM_ROOM_PART,
     GM_ROOM_AT_X,
     GM_ROOM_AT_Y,
+    GM_ROOM_AT_Z, /* without a name */
+    GM_ROOM_PART,
     GM_ROOM_PERIMETER,
     GM_ROOM_AREA,
     GM_ROOM_INLET_LENGTH,
@@ -60,6 +61,8 @@ enum gm_form_operator {
 #undef GM_FORM_OPERATOR
     GM_FORM_OPERATORS
 };
+/* The forms of a room's flow, which its lets and observables may hold. */
+enum gm_room_form { GM_ROOM_PSI, GM_ROOM_W, GM_ROOM_U, GM_ROOM_THETA, GM_ROOM_WARMTH, GM_ROOM_FORMS };
 /* The most calls of such a system. */
 enum { GM_MOST_FORM_CALLS = 256, GM_FORM_PLACES = 4 /* x y z s */ };
 
@@ -83,7 +86,8 @@ struct gm_form_declared {
 /* A variable of the graph. The numbers of variables: n components; t; parameters; for a Lagrangian n / 2
    velocities, for a field x and u_x, for matrices x, for an evolution x, all u_x, all u_xx .. u_xxxx; n
    components at the start, x(0); and, without fields, n components of the exact solution, exact(x). Forms: n forms; t;
-   parameters; x, y, z and s, the length along a part of the boundary; calls. */
+   parameters; x, y, z and s, the length along a part of the boundary; calls. Rooms: the forms of the flow; t; parameters;
+   those of gm_room_variable; calls. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* value of a parameter; of t its value at the start; else NaN */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/flow/flow.h"
+#include "core/flow/observed.h"
 #include "core/memory.h"
 #include "core/model/scope.h"
 #include "scenes/common/written.h"
@@ -176,8 +176,16 @@ static void check_tables(const struct gm_user_room *user_room)
     }
 }
 
-/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one */
-static void observe(struct gm_user_room *user_room, const struct gm_system_item *item)
+/* The value of a formula; the subject has its number. */
+static double observed(const struct gm_view *view)
+{
+    return gm_flow_observed(gm_room_of(view->problem)->forms, view->state,
+                            view->t * gm_flow_of(view->problem)->time_unit, gm_room_subject_of(view)->number);
+}
+
+/* observe: KEY; title TEXT; missing TEXT; along PROFILE: a new observable, or a new title of one; or a formula, with their
+   count so far */
+static void observe(struct gm_user_room *user_room, const struct gm_system_item *item, size_t *formulas)
 {
     const char *along = gm_system_option_text(item, GM_OPTION_ALONG, NULL);
     const struct gm_system_item *profile =
@@ -189,7 +197,13 @@ static void observe(struct gm_user_room *user_room, const struct gm_system_item 
         kind++;
     }
     int i = gm_scene_observable(&of_file->scene, item->name);
-    if (i < 0) {
+    if (item->count > 0) {
+        const struct gm_observable row = GM_OBSERVABLE(item->name, observed, item->name);
+        gm_system_refuse_if(&user_room->room.system, i >= 0, item->place, "%s is observed already",
+                            item->name);
+        i = (int)of_file->observable_count;
+        gm_room_observe(user_room, row, (struct gm_room_subject){.number = (*formulas)++});
+    } else if (i < 0) {
         gm_system_refuse_if(&user_room->room.system, kind == GM_ROOM_KINDS || (along && !profile),
                             item->place,
                             "this is nothing that is observed of a room, or of a profile that it has");
@@ -208,10 +222,11 @@ void gm_room_take_lines(struct gm_user_room *user_room)
     struct gm_system_scene *of_file = &user_room->of_file;
     struct gm_scene *scene = &of_file->scene;
     const struct gm_system_item *item;
+    size_t formulas = 0;
     make_rows(user_room);
     check_tables(user_room);
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_OBSERVE, i)); i++) {
-        observe(user_room, item);
+        observe(user_room, item, &formulas);
     }
     if (gm_written_schemes(of_file->arena, system->texts[GM_WORD_SCHEMES],
                            &(struct gm_problem){.kind = &gm_kind_flow, .m = 1}, of_file->schemes) > 0) {

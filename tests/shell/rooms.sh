@@ -13,6 +13,54 @@ assert run["status"] == "ok" and float(sys.argv[2]) <= value <= float(sys.argv[3
         fail "$*"
 }
 
+# observables that are formulas of the flow's forms: the same numbers as those that the program has by a name
+formulas() {
+    geomint_room=$1
+    shift
+    status 0 list "$geomint_room" --source
+    {
+        cat out
+        echo 'let: energy = inner(u, u)/2'
+        echo 'observe: of_energy = energy; title mine'
+        echo 'observe: of_enstrophy = inner(w, w)/2'
+        echo 'observe: of_scalar = integral(scalar)'
+        echo 'observe: of_area = integral(1)'
+        echo 'observe: of_time = t'
+        for line in "$@"; do
+            echo "$line"
+        done
+    } >forms.room
+}
+equal() {
+    python3 -c 'import json, sys; seen = json.load(open("out"))["observables"]
+for pair in sys.argv[1:]:
+    mine, its = (eval(part, {}, seen) for part in pair.split("=="))
+    assert abs(mine - its) <= 1e-13*abs(its), (pair, mine, its)' "$@" || fail "$*"
+}
+cp "$rooms/heated.msh" "$rooms/office.msh" .
+formulas heated 'observe: of_heat = integral(temperature)'
+status 0 run ./forms.room until=0.2 --json
+equal of_energy==kinetic_energy of_enstrophy==enstrophy of_heat/of_area==temperature_mean of_time==0.2
+for star in circumcentric barycentric; do
+    formulas office
+    status 0 run ./forms.room until=0.2 star=$star --json
+    equal of_energy==kinetic_energy of_enstrophy==enstrophy of_scalar==scalar_total of_scalar/of_area==scalar_mean
+done
+formulas cavity 'let: u = 3' 'observe: of_name = u*min(psi)'
+refused 1 'inner is of two forms of one type, and these are a number and a number' run ./forms.room
+formulas cavity 'observe: psi_least = min(psi)' 'observe: wrong = psi'
+refused 1 'psi is a 0-form, and has to be a number here' run ./forms.room
+formulas cavity 'wall: bottom tangential = max(psi)'
+refused 1 'forms of the flow, such as psi, are for the lines let: and observe:' run ./forms.room
+formulas cavity 'wall: bottom tangential = energy'
+refused 1 'forms of the flow, such as psi, are for the lines let: and observe:' run ./forms.room
+formulas cavity 'wall: bottom tangential = integral(1)'
+refused 1 'integral' run ./forms.room
+formulas cavity 'observe: triangles = 3'
+refused 1 'observe: is given twice' run ./forms.room
+formulas cavity 'observe: warm = max(temperature)'
+refused 1 'there is no name temperature' run ./forms.room
+
 # rooms have names, which are proposed
 status 0 list rooms
 grep -q '^heated  *A heated room' out || fail "list rooms: $(head -n 3 out)"

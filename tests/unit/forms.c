@@ -15,6 +15,15 @@
 #include "core/form/generators.h"
 #include "core/form/space.h"
 
+/* A space that owns its complex. */
+static struct gm_form_space space_on(struct gm_complex *complex)
+{
+    struct gm_form_space space;
+    assert_true(gm_form_space_open(&space, complex));
+    assert_non_null(gm_arena_keep(space.arena, complex, gm_complex_close));
+    return space;
+}
+
 static struct gm_form_space space_of(const double *points, size_t vertices, const int *corners, size_t count,
                                      enum gm_star star)
 {
@@ -25,11 +34,9 @@ static struct gm_form_space space_of(const double *points, size_t vertices, cons
                                       .count = count,
                                       .star = star};
     struct gm_triangulation_fault fault;
-    struct gm_form_space space;
     struct gm_complex *complex = gm_complex_open(&from, &fault);
     assert_non_null(complex);
-    assert_true(gm_form_space_open(&space, complex));
-    return space;
+    return space_on(complex);
 }
 
 static struct gm_form_space generated(const char *word, const double *numbers, size_t count,
@@ -37,11 +44,10 @@ static struct gm_form_space generated(const char *word, const double *numbers, s
 {
     struct gm_fault wrong;
     struct gm_triangulation_fault fault;
-    struct gm_form_space space;
     assert_true(gm_generator_check(word, numbers, count, 0, &wrong));
     struct gm_triangulation mesh;
     assert_true(gm_generator_open(word, numbers, count, star, &mesh, &fault));
-    assert_true(gm_form_space_open(&space, mesh.complex));
+    const struct gm_form_space space = space_on(mesh.complex);
     mesh.complex = NULL; /* the space has it */
     gm_triangulation_close(&mesh);
     return space;

@@ -1196,7 +1196,6 @@ static void make(struct gm_arena *arena, void *data)
     own->model = model;
     own->seen_time = NAN;
     own->file = opening->file;
-    own->file.complex = NULL; /* the space takes it */
     opening->file = (struct gm_triangulation){0};
     gm_arena_keep(arena, &own->file, gm_triangulation_close);
     gm_arena_need(arena, gm_form_space_open(&own->space, complex));
