@@ -10,7 +10,8 @@ struct gm_flow_forms {
     double *slope, *velocity, *circulation, *cold; /* d psi; u; w; a temperature of 0 */
 };
 
-struct gm_flow_forms *gm_flow_forms_open(struct gm_arena *arena, const struct gm_room *room,
+struct gm_flow_forms *gm_flow_forms_open(struct gm_arena *arena, const struct gm_form_program *program,
+                                         const struct gm_user_system *system, const double *values,
                                          const struct gm_flow *flow)
 {
     struct gm_complex *complex = flow->complex;
@@ -18,7 +19,7 @@ struct gm_flow_forms *gm_flow_forms_open(struct gm_arena *arena, const struct gm
     forms->flow = flow;
     gm_arena_need(arena, gm_form_space_open(&forms->space, complex));
     gm_arena_keep(arena, &forms->space, gm_form_space_close);
-    gm_form_values_open(&forms->values, arena, &room->observed, &forms->space, &room->system, room->values);
+    gm_form_values_open(&forms->values, arena, program, &forms->space, system, values);
     forms->slope = gm_arena_take(arena, complex->edges, sizeof(double));
     forms->velocity = gm_arena_take(arena, complex->edges, sizeof(double));
     forms->circulation = gm_arena_take(arena, complex->vertices, sizeof(double));

@@ -5,15 +5,16 @@
 #define GM_CORE_FLOW_OBSERVED_H
 
 #include "core/flow/flow.h"
-#include "core/flow/room.h"
+#include "core/form/program.h"
 
 struct gm_flow_forms;
 
-/* Called in a body of the arena, which outlives the flow's complex. */
-struct gm_flow_forms *gm_flow_forms_open(struct gm_arena *arena, const struct gm_room *room,
+/* Called in a body of the arena, which closes before the flow. `values` are those of the system's variables. */
+struct gm_flow_forms *gm_flow_forms_open(struct gm_arena *arena, const struct gm_form_program *program,
+                                         const struct gm_user_system *system, const double *values,
                                          const struct gm_flow *flow);
 
-/* The value of a root of room->observed at a state and a time of the flow. */
+/* The value of a root of the program at a state and a time of the flow. */
 double gm_flow_observed(struct gm_flow_forms *forms, const double *y, double t, size_t root);
 
 #endif

@@ -1290,7 +1290,7 @@ static void make_flow(struct gm_arena *arena, void *data)
         flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
     }
     if (room->observed.root_count > 0) {
-        room->forms = gm_flow_forms_open(arena, room, flow);
+        room->forms = gm_flow_forms_open(arena, &room->observed, &room->system, room->values, flow);
     }
     const char *scalar = room->system.texts[GM_WORD_SCALAR];
     flow->scalar = !scalar || strcmp(scalar, "none") != 0;
