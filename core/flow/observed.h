@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Observables of a room that are formulas of the forms of its flow: psi, a 0-form; w, the vorticity with the part of walls, a dual 2-form; u = -star d psi, a dual 1-form; scalar and temperature, 0-forms. */
+/* Observables of a room that are formulas of the forms of its flow: psi, a 0-form; w, the vorticity with the part of
+   walls, a dual 2-form; u = -star d psi, a dual 1-form; scalar and temperature, 0-forms. */
 #ifndef GM_CORE_FLOW_OBSERVED_H
 #define GM_CORE_FLOW_OBSERVED_H
 

@@ -87,7 +87,7 @@ struct gm_form_declared {
    velocities, for a field x and u_x, for matrices x, for an evolution x, all u_x, all u_xx .. u_xxxx; n
    components at the start, x(0); and, without fields, n components of the exact solution, exact(x). Forms: n forms; t;
    parameters; x, y, z and s, the length along a part of the boundary; calls. Rooms: the forms of the flow; t; parameters;
-   those of gm_room_variable; calls. */
+   enum gm_room_variable; calls. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* value of a parameter; of t its value at the start; else NaN */
