@@ -134,6 +134,13 @@ for star, product, constant, enstrophy, still in (
     check((found["least"] > math.exp(-2)) == (product == "upwind"), f"{star} {product}: {found['least']}")
 check(abs(observed("form-transport", "irregular=0", "star=circumcentric")["c_error"] - 1.8e-4) < 5e-6, "a regular torus")
 
+# the free energy of two liquids falls to that of an independent program, and their total stays
+PARTING = ("form-cahn-hilliard", "n=8", "eps=0.2")
+check(abs(observed(*PARTING, "until=0")["free_energy"] - .7767425) < 5e-8, "the free energy at the start")
+for words in (("scheme=rk4", "dt=1e-5"), ("scheme=midpoint", "dt=1e-3")):
+    found = observed(*PARTING, "until=0.05", *words)
+    check(abs(found["free_energy"] - .7725167) < 6e-8 and found["total_error"] < 1e-15, f"two liquids, {words}: {found}")
+
 # list --long measures with the star and the product of the file
 source = subprocess.run([GEOMINT, "list", "form-transport", "--source"], capture_output=True, text=True).stdout
 for line, star, verdict in (("", "circumcentric", "keep"), ("star: galerkin", "barycentric", "keep"),
