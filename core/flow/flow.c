@@ -175,11 +175,15 @@ void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_
 
 double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi)
 {
-    double largest = flow->speed;
+    double largest = flow->speed, most = 0;
     for (size_t t = 0; t < flow->complex->triangles; t++) {
         double u[2];
         gm_flow_velocity(flow->complex, psi, t, u);
-        largest = fmax(largest, gm_hypot(u[0], u[1]));
+        const double square = u[0] * u[0] + u[1] * u[1];
+        if (square >= most * (1 - 1e-14)) { /* it may be the largest: squares are cheaper than roots */
+            most = fmax(most, square);
+            largest = fmax(largest, gm_hypot(u[0], u[1]));
+        }
     }
     return largest;
 }
