@@ -283,7 +283,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     double *matrix = malloc((n * n + 2 * n + 1) * sizeof *matrix), *values = matrix ? matrix + n * n : NULL;
     const bool good =
         matrix && gm_mesh_mass_matrix(mesh, state, matrix) && gm_eigenvalues(matrix, n, values, values + n);
-    double least = INFINITY, largest = 0;
+    double least = INFINITY, largest = 0, sign = 1;
     for (size_t i = 0; good && i < n; i++) {
         largest = fmax(largest, fabs(values[i]));
         least = fmin(least, fabs(values[i]));
@@ -291,8 +291,9 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     *rank = 0;
     for (size_t i = 0; good && i < n; i++) {
         *rank += fabs(values[i]) > 1e-12 * largest;
+        sign = values[i] < -1e-12 * largest ? -1 : sign;
     }
-    *condition = largest / least;
+    *condition = sign * largest / least;
     free(matrix);
     return good;
 }
