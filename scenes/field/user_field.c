@@ -226,7 +226,7 @@ static void make_work(struct gm_user_field *field)
     const double points = (double)initial->grid.points;
     struct gm_work *work = &field->of_file.work;
     *work = (struct gm_work){.arguments = "", .halvings = 5};
-    if (!field->of_file.system.alone) { /* the places of nodes alone are no grid */
+    if (!field->of_file.system.alone) { /* nodes alone have no grid to compare a step with */
         work->coarsest = gm_system_half_length(initial) / points * 2;
     }
     if (field->solved) {

@@ -32,9 +32,6 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const
                        const struct gm_mesh *mesh)
 {
     double *points = gm_picture_memory(picture, 2 * EXACT_POINTS * sizeof *points);
-    if (!points) {
-        return;
-    }
     for (size_t i = 0; i < EXACT_POINTS; i++) {
         const double x = mesh->first + mesh->length * (double)i / (EXACT_POINTS - 1);
         points[2 * i] = x;
@@ -48,9 +45,6 @@ static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, 
 {
     const size_t points = mesh->points, place = gm_mesh_place(mesh), value = mesh->alone ? points : 0;
     double *nodes = gm_picture_memory(picture, 2 * (points + 2) * sizeof *nodes);
-    if (!nodes) {
-        return NULL;
-    }
     nodes[0] = mesh->first;
     nodes[1] = mesh->left;
     for (size_t k = 0; k < points; k++) {
@@ -70,7 +64,7 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
     const struct gm_mesh mesh = gm_mesh_of(view);
     const size_t cells = mesh.points + 1;
     double *line = gm_picture_memory(picture, mesh.alone ? 2 * (cells * PARTS + 1) * sizeof *line : 1);
-    if (!mesh.alone || !line) {
+    if (!mesh.alone) {
         gm_mark_line(picture, panel, style, nodes, cells + 1, false);
         return;
     }
@@ -122,7 +116,7 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
     double *mass = gm_picture_memory(picture, (n * n + 1) * sizeof *mass),
            *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND], axes[2][2];
     size_t count = 0;
-    if (!mass || !sizes || !gm_mesh_mass_matrix(&mesh, view.state, mass)) {
+    if (!gm_mesh_mass_matrix(&mesh, view.state, mass)) {
         return;
     }
     for (size_t k = 0; k < mesh.points; k++) {
@@ -159,13 +153,10 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const bool inertia = show == GM_MESH_INERTIA;
     double *nodes = nodes_of(picture, &mesh, view.start);
-    if (nodes && view.t != view.t0 && !inertia) {
+    if (view.t != view.t0 && !inertia) {
         draw_line(picture, panel, &view, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes);
     }
     nodes = nodes_of(picture, &mesh, view.state);
-    if (!nodes) {
-        return;
-    }
     draw_line(picture, panel, &view, (struct gm_style){role, inertia ? 0.4 : 1, 1.6, GM_SOLID}, nodes);
     if (inertia) {
         draw_inertia(picture, panel, lane, nodes);
@@ -213,7 +204,7 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
     const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
                                    GM_SOLID};
     double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
-    for (size_t k = 0; path && k < entries->width; k++) {
+    for (size_t k = 0; k < entries->width; k++) {
         for (size_t i = 0; i < entries->count; i++) {
             path[2 * i] = entries->values[i * entries->width + k];
             path[2 * i + 1] = entries->times[i];
@@ -284,7 +275,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         while (lanes[first]->scheme != lanes[i]->scheme) {
             first++;
         }
-        for (size_t k = i; line && first == i && k < count; k++) {
+        for (size_t k = i; first == i && k < count; k++) {
             const double largest = farthest(lanes[k], (size_t)error, 0);
             if (lanes[k]->scheme == lanes[i]->scheme && lanes[k]->run->status == GM_OK && isfinite(largest)) {
                 line[2 * made] = of_energy ? fabs(lanes[k]->run->dt) : (double)(lanes[k]->problem.n / 4 + 1);

@@ -24,7 +24,7 @@
 
 enum { POINTS = 3, ELEMENTS = POINTS + 1, DIRECTIONS = 2 * POINTS };
 
-/* q_i = (y, X) and R_i of all nodes; those of the ends, which are held, mean nothing. */
+/* q_i = (y, X) and R_i of all nodes; of the ends, which are held, the numbers mean nothing. */
 struct motion {
     double place[POINTS + 2][2], rest[POINTS + 2][2];
 };
