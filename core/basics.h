@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Three things that any file may need. */
+/* Four things that any file may need. */
 #ifndef GM_CORE_BASICS_H
 #define GM_CORE_BASICS_H
 
@@ -13,6 +13,13 @@
 #define GM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define GM_CLONES __attribute__((noinline))
+#endif
+
+/* Before a loop: no array that it writes overlaps another one, so that it can be vectorised. */
+#ifdef __clang__
+#define GM_NO_OVERLAP _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define GM_NO_OVERLAP _Pragma("GCC ivdep")
 #endif
 
 /* The larger of both; NaN if one is NaN, which fmax loses. */

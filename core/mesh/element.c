@@ -65,14 +65,14 @@ void gm_elements_place(struct gm_elements *stage, const double *state)
 static double shape(struct gm_elements *stage)
 {
     const size_t count = stage->count;
-    const double *restrict y = stage->y, *restrict x = stage->x;
-    double *restrict middle = stage->middle, *restrict rise = stage->rise, *restrict width = stage->width;
-    double *restrict slope = stage->slope;
+    const double *y = stage->y, *x = stage->x, *width = stage->width;
+    GM_NO_OVERLAP
     for (size_t e = 0; e < count; e++) {
-        middle[e] = (y[e] + y[e + 1]) / 2;
-        rise[e] = y[e + 1] - y[e];
-        width[e] = x[e + 1] - x[e];
-        slope[e] = rise[e] / width[e];
+        const double r = y[e + 1] - y[e], d = x[e + 1] - x[e];
+        stage->middle[e] = (y[e] + y[e + 1]) / 2;
+        stage->rise[e] = r;
+        stage->width[e] = d;
+        stage->slope[e] = r / d;
     }
     double least = width[0];
     for (size_t e = 1; e < count; e++) {
@@ -121,26 +121,23 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
     const size_t count = stage->count;
     mesh->potential->first(mesh->potential, stage->middle, stage->rise, count, stage->w, stage->w_m,
                            stage->w_r);
-    const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
-    const double *restrict rise = stage->rise, *restrict slope = stage->slope;
-    const double *restrict w = stage->w, *restrict w_m = stage->w_m, *restrict w_r = stage->w_r;
-    double *restrict force_y0 = stage->force_y0, *restrict force_y1 = stage->force_y1;
-    double *restrict force_d = stage->force_d;
-    double *restrict momentum_u0 = stage->momentum_u0, *restrict momentum_u1 = stage->momentum_u1;
+    const double *u = stage->u, *v = stage->v;
     double sum = 0;
+    GM_NO_OVERLAP
     for (size_t e = 0; e < count; e++) {
-        const double u0 = u[e], u1 = u[e + 1], v0 = v[e], v1 = v[e + 1], d = width[e], r = rise[e],
-                     g = slope[e];
+        const double u0 = u[e], u1 = u[e + 1], v0 = v[e], v1 = v[e + 1];
+        const double d = stage->width[e], r = stage->rise[e], g = stage->slope[e];
         const double a0 = 2 * u0 + u1, a1 = u0 + 2 * u1, b0 = 2 * v0 + v1, b1 = v0 + 2 * v1;
         const double kuu = (u0 * a0 + u1 * a1) / 2, kuv = u0 * b0 + u1 * b1, kvv = (v0 * b0 + v1 * b1) / 2;
-        const double l_m = -d * w_m[e];
-        const double l_r = (2 * g * kvv - kuv) * (1. / 6) - g - d * w_r[e];
-        force_y0[e] = l_m / 2 - l_r;
-        force_y1[e] = l_m / 2 + l_r;
-        force_d[e] = (kuu - g * g * kvv) * (1. / 6) + g * g / 2 - w[e];
-        momentum_u0[e] = (d * a0 - r * b0) * (1. / 6);
-        momentum_u1[e] = (d * a1 - r * b1) * (1. / 6);
-        sum += force_d[e];
+        const double l_m = -d * stage->w_m[e];
+        const double l_r = (2 * g * kvv - kuv) * (1. / 6) - g - d * stage->w_r[e];
+        const double l_d = (kuu - g * g * kvv) * (1. / 6) + g * g / 2 - stage->w[e];
+        stage->force_y0[e] = l_m / 2 - l_r;
+        stage->force_y1[e] = l_m / 2 + l_r;
+        stage->force_d[e] = l_d;
+        stage->momentum_u0[e] = (d * a0 - r * b0) * (1. / 6);
+        stage->momentum_u1[e] = (d * a1 - r * b1) * (1. / 6);
+        sum += l_d;
     }
     sum += mesh->cell ? add_cells(stage, mesh->cell) : 0;
     return isfinite(sum);
@@ -172,8 +169,9 @@ static void weigh(struct gm_elements *stage, const struct gm_mesh *mesh)
         memcpy(stage->ends + i * count, at_ends[i], size);
     }
     density->values(density, density->local ? stage->ends : stage->slope, stage->density, m);
-    for (size_t i = 0; mesh->even > 0 && i < values; i++) {
-        stage->density[i] = (1 - mesh->even) * stage->density[i] + (i < m ? mesh->even : 0);
+    const double share = (1 - mesh->even) / mesh->level;
+    for (size_t i = 0; share != 1 && i < values; i++) {
+        stage->density[i] = share * stage->density[i] + (i < m ? mesh->even : 0);
     }
 }
 
@@ -198,54 +196,41 @@ static inline struct end end_of(const struct gm_elements *stage, size_t e, size_
     };
 }
 
-static void constrain_locally(struct gm_elements *stage)
+/* It is compiled for each kind of density. */
+static inline __attribute__((always_inline)) void constrain(struct gm_elements *stage, bool local)
 {
-    const double *velocity[2] = {stage->u, stage->v};
-    for (size_t e = 0; e < stage->count; e++) {
-        const double r_rate = stage->u[e + 1] - stage->u[e], d_rate = stage->v[e + 1] - stage->v[e];
-        for (size_t side = 0; side < 2; side++) {
-            const struct end end = end_of(stage, e, side);
-            const double w[2] = {velocity[0][e + side], velocity[1][e + side]};
-            const double along[2] = {end.by_r[0] * w[0] + end.by_r[1] * w[1],
-                                     end.by_d[0] * w[0] + end.by_d[1] * w[1]};
-            for (size_t c = 0; c < 2; c++) {
-                stage->gradient[2 * side + c][e] += end.by[c];
-                stage->rate[e] += end.by[c] * w[c];
-                stage->bend[2 * side + c][e] += end.by_r[c] * r_rate + end.by_d[c] * d_rate +
-                                                end.twice[c][0] * w[0] + end.twice[c][1] * w[1];
-                stage->bend[c][e] -= along[c];
-                stage->bend[2 + c][e] += along[c];
-            }
-        }
-    }
-}
-
-/* The values at the other end lie `far` behind those at one: a constant 0 if they are the same. */
-static inline void constrain(struct gm_elements *stage, size_t far)
-{
-    const size_t count = stage->count, m = count + far;
-    const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
-    const double *restrict slope = stage->slope, *restrict P = stage->density;
-    double *restrict ell = stage->ell, *restrict rate = stage->rate;
-    double *restrict by_y0 = stage->gradient[0], *restrict by_x0 = stage->gradient[1];
-    double *restrict by_y1 = stage->gradient[2], *restrict by_x1 = stage->gradient[3];
-    double *restrict bend_y0 = stage->bend[0], *restrict bend_x0 = stage->bend[1];
-    double *restrict bend_y1 = stage->bend[2], *restrict bend_x1 = stage->bend[3];
+    /* values at the other end lie `far` behind those at one: a constant 0 if they are the same */
+    const size_t count = stage->count, far = local ? count : 0, m = count + far;
+    const double *P = stage->density, *u = stage->u, *v = stage->v;
+    GM_NO_OVERLAP
     for (size_t e = 0; e < count; e++) {
-        const double d = width[e], g = slope[e], r_rate = u[e + 1] - u[e], d_rate = v[e + 1] - v[e];
+        const double d = stage->width[e], g = stage->slope[e], z[4] = {u[e], v[e], u[e + 1], v[e + 1]},
+                     r_rate = z[2] - z[0], d_rate = z[3] - z[1];
         const double sum = P[e] + P[far + e], s = (P[m + e] + P[m + far + e]) / 2,
                      rr = (P[2 * m + e] + P[2 * m + far + e]) / 2;
         const double rd = s - g * rr, dd = sum - g * (s + rd), by_r = d * s, by_d = d * (sum - g * s);
-        ell[e] = d * d * (sum / 2);
-        by_y0[e] = -by_r;
-        by_x0[e] = -by_d;
-        by_y1[e] = by_r;
-        by_x1[e] = by_d;
-        rate[e] = by_r * r_rate + by_d * d_rate;
-        bend_y1[e] = rr * r_rate + rd * d_rate;
-        bend_x1[e] = rd * r_rate + dd * d_rate;
-        bend_y0[e] = -bend_y1[e];
-        bend_x0[e] = -bend_x1[e];
+        double rate = by_r * r_rate + by_d * d_rate, bend_r = rr * r_rate + rd * d_rate,
+               bend_d = rd * r_rate + dd * d_rate, by[4] = {-by_r, -by_d, by_r, by_d}, bend[4] = {0};
+        if (local) {
+#pragma GCC unroll 4
+            for (size_t a = 0; a < 4; a++) {
+                const struct end end = end_of(stage, e, a / 2);
+                const size_t c = a % 2;
+                by[a] += end.by[c];
+                rate += end.by[c] * z[a];
+                bend_r += end.by_r[c] * z[a];
+                bend_d += end.by_d[c] * z[a];
+                bend[a] = end.by_r[c] * r_rate + end.by_d[c] * d_rate + end.twice[c][0] * z[a - c] +
+                          end.twice[c][1] * z[a - c + 1];
+            }
+        }
+        stage->ell[e] = d * d * (sum / 2);
+        stage->rate[e] = rate;
+        for (size_t a = 0; a < 4; a++) {
+            const double along = a % 2 == 0 ? bend_r : bend_d;
+            stage->gradient[a][e] = by[a];
+            stage->bend[a][e] = a < 2 ? bend[a] - along : bend[a] + along;
+        }
     }
 }
 
@@ -253,10 +238,9 @@ void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh
 {
     weigh(stage, mesh);
     if (mesh->density->local) {
-        constrain(stage, stage->count);
-        constrain_locally(stage);
+        constrain(stage, true);
     } else {
-        constrain(stage, 0);
+        constrain(stage, false);
     }
 }
 

@@ -54,7 +54,7 @@ struct gm_mesh_layout gm_mesh_layout_of(const struct gm_mesh_row *row, const str
 /* E of a mesh that is smoothed in time */
 static double friction(const struct gm_mesh *mesh)
 {
-    return 2 * mesh->length * mesh->relax / gm_pow((double)mesh->points + 1, 3);
+    return 2 * mesh->length * mesh->relax / (mesh->level * gm_pow((double)mesh->points + 1, 3));
 }
 
 void gm_step_place(struct gm_mesh_solver *solver, const double *state, double t, double h)
@@ -209,14 +209,9 @@ static inline __attribute__((always_inline)) bool residual_of(struct gm_mesh_sol
 
 bool gm_step_residual(struct gm_mesh_solver *solver, const double *unknowns)
 {
-    switch (solver->stages) {
-    case 1:
-        return residual_of(solver, 1, unknowns);
-    case 2:
-        return residual_of(solver, 2, unknowns);
-    default:
-        return residual_of(solver, GM_STAGES, unknowns);
-    }
+    return solver->stages == 1   ? residual_of(solver, 1, unknowns)
+           : solver->stages == 2 ? residual_of(solver, 2, unknowns)
+                                 : residual_of(solver, GM_STAGES, unknowns);
 }
 
 /* Derivatives of z and zdot at the stages by an unknown of one stage: dy/dt and dX/dt move places by h a_im, and X

@@ -89,6 +89,7 @@ enum gm_status gm_step_end(struct gm_mesh_solver *solver, double *multiplier);
    six steps. */
 
 /* The functions that all families share. */
+const char *gm_mesh_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
 size_t gm_mesh_memory(const struct gm_problem *problem, const struct gm_scheme *scheme);
 enum gm_status gm_mesh_restart(const struct gm_task *task);
 /* Makes steps, in place if task->out is task->y. */

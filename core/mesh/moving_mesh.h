@@ -73,6 +73,7 @@ struct gm_mesh {
     double left, right;   /* the field at both ends */
     double even;          /* the homotopy of the start has (1 - even) P + even instead of P; else 0 */
     const struct gm_density *density;
+    double level; /* a power of 2: P is divided by it, as equations are solved best with numbers near 1 */
     const struct gm_mesh_cell *cell; /* NULL: none */
     double relax;                    /* T of a mesh that is smoothed in time; 0: it is not */
     double t;                        /* the time of states that are started or carried */
@@ -152,8 +153,9 @@ static inline double gm_mesh_energy(const struct gm_mesh *mesh, const double *st
    GM_DENSE_POINTS nodes, or when out of memory. */
 enum { GM_DENSE_POINTS = 255 };
 bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix);
-/* The rank of M, from eigenvalues whose size is above 1e-12 of the largest, and its condition; or false as before. det M is a product of
-   squared differences of slopes: every straight node takes 1 off the rank (their proposition 7). */
+/* The rank of M, from eigenvalues whose size is above 1e-12 of the largest, and its condition, below 0 if M is not
+   positive; or false as before. det M is a product of squared differences of slopes: every straight node takes 1 off the
+   rank (their proposition 7). */
 bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank, double *condition);
 
 /* The largest Lagrange multiplier of the run's last step (0: the scheme has none), and the number of

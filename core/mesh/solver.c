@@ -154,6 +154,13 @@ enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme)
     return ((const struct gm_mesh_row *)scheme->coefficients)->kind;
 }
 
+const char *gm_mesh_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const bool alone = gm_mesh_of_problem(problem).alone;
+    return alone && gm_scheme_mesh(scheme) != GM_MESH_FREE ? "a field; nodes alone are for free- schemes"
+                                                           : NULL;
+}
+
 bool gm_scheme_relaxes(const struct gm_scheme *scheme)
 {
     return gm_scheme_mesh(scheme) == GM_MESH_MOVING &&

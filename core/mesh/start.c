@@ -9,8 +9,9 @@
 #include "core/linear/eigenvalues.h"
 #include "core/mesh/nodes.h"
 
-/* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1 in this many steps, which for
-   arclength is alpha growing (Tyranowski & Desbrun 2019, section 5.2); they are halved when they are too long. */
+/* Continuation: the density 1 + f^2 (P - 1) leads from f = 0, the uniform mesh, to 1, which for arclength is alpha growing
+   (Tyranowski & Desbrun 2019, section 5.2). The first step of f is one in this many; a step that is too long is halved, and
+   the one after a mesh that was found is twice as long. */
 enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64 };
 
 struct bench {
@@ -86,6 +87,7 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
         part.even = 1 - next * next;
         if (gm_nodes_equidistribute(&bench->stage, &part, profile, context, &bench->matrix, bench->change)) {
             reached = next;
+            step *= 2;
             memcpy(good, x, size);
         } else {
             step /= 2;
@@ -283,7 +285,7 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     double *matrix = malloc((n * n + 2 * n + 1) * sizeof *matrix), *values = matrix ? matrix + n * n : NULL;
     const bool good =
         matrix && gm_mesh_mass_matrix(mesh, state, matrix) && gm_eigenvalues(matrix, n, values, values + n);
-    double least = INFINITY, largest = 0;
+    double least = INFINITY, largest = 0, sign = 1;
     for (size_t i = 0; good && i < n; i++) {
         largest = fmax(largest, fabs(values[i]));
         least = fmin(least, fabs(values[i]));
@@ -291,8 +293,9 @@ bool gm_mesh_mass(const struct gm_mesh *mesh, const double *state, double *rank,
     *rank = 0;
     for (size_t i = 0; good && i < n; i++) {
         *rank += fabs(values[i]) > 1e-12 * largest;
+        sign = values[i] < -1e-12 * largest ? -1 : sign;
     }
-    *condition = largest / least;
+    *condition = sign * largest / least;
     free(matrix);
     return good;
 }

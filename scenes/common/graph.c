@@ -376,6 +376,21 @@ int gm_asked_series(struct gm_picture *picture, const struct gm_scene *scene, co
     return series;
 }
 
+struct gm_style gm_chart_style(size_t index)
+{
+    return (struct gm_style){gm_lane_role(index), 1, 2.4, gm_lane_dash(index)};
+}
+
+void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count, const char *name)
+{
+    if (count > 0) {
+        gm_mark_line(picture, panel, style, points, count, false);
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 6, GM_SOLID}, points, count);
+        gm_panel_key(picture, panel, style, name);
+    }
+}
+
 double gm_start_of(const struct gm_lane *lane, size_t series)
 {
     const struct gm_observable *observable = gm_scene_observable_at(lane->scene, series);

@@ -123,6 +123,13 @@ void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *l
 #define GM_NO_OBSERVABLE "no observable "
 int gm_asked_series(struct gm_picture *picture, const struct gm_scene *scene, const char *key);
 
+/* The colour of line number `index`. */
+struct gm_style gm_chart_style(size_t index);
+
+/* A line with its points, and its name among the panel's keys; without points it draws nothing. */
+void gm_chart_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count, const char *name);
+
 /* Adds graphs of the lanes' histories. */
 void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                     const struct gm_graph *graphs, size_t graph_count);

@@ -195,6 +195,14 @@ static bool place_on_mesh(const struct gm_view *view, size_t k, double *values, 
     return true;
 }
 
+static bool admits_view(const struct gm_system_lane *lane, const struct gm_problem *problem, char *sentence)
+{
+    (void)problem;
+    return lane->grid.show != GM_MESH_CONVERGENCE || gm_user_field_of(lane)->solved ||
+           gm_refuse(sentence,
+                     "show=convergence draws the error, and the file has no exact solution, exact:");
+}
+
 /* Remark 3 of Tyranowski & Desbrun (2019), section 3.3. */
 static void mesh_failure(const struct gm_view *view, char *text, size_t size)
 {
@@ -250,15 +258,11 @@ const struct gm_field_kind gm_field_moving_waves = {
     .failure = mesh_failure,
     .open = open_mesh,
     .closes = gm_user_mesh_rests,
+    .admits = admits_view,
     .draw = gm_field_draw_mesh,
     .value = value_of_first,
     .place = place_on_mesh,
 };
-
-static double node_momentum(const struct gm_view *view)
-{
-    return gm_view_measure(view, GM_MEASURE_MOMENTUM);
-}
 
 /* The number of the fastest node. */
 static size_t fastest(const struct gm_view *view)
@@ -294,10 +298,10 @@ static const struct gm_parameter node_rows[] = {
                 "the velocity between nodes of distance d and velocities v0 and v1, for s from 0 to 1",
                 .names = true)};
 static const struct gm_observable of_nodes[] = {
-    GM_OBSERVABLE("energy", gm_view_mesh_energy, "energy"),
-    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
+    GM_OBSERVABLE("energy", gm_view_mesh_measure, "energy"),
+    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_measure, "E", "energy error"),
     /* walls and a total derivative in cell: change the momentum, so that it is not lost */
-    GM_LOG_OBSERVABLE("momentum_error", node_momentum, "momentum error", .error = true, .symbol = "P"),
+    GM_LOG_OBSERVABLE("momentum_error", gm_view_mesh_measure, "momentum error", .error = true, .symbol = "P"),
     GM_OBSERVABLE("crest", crest_of_nodes, "place of the fastest node"),
     GM_OBSERVABLE("amplitude", height_of_nodes, "its velocity"), GM_MESH_SOLVING};
 static const char *const free_schemes[] = {"free-gauss4", "free-gauss2", NULL};

@@ -30,6 +30,37 @@ bool gm_field_takes(const struct gm_scheme *scheme, const char *key)
            (gm_scheme_relaxes(scheme) || strcmp(key, "relax") != 0);
 }
 
+/* Returns true if the line between nodes alone joins their velocities. */
+static bool joins(const struct gm_problem *problem, const struct gm_mesh *mesh, const double *y,
+                  char *sentence)
+{
+    enum { PARTS = 4 };
+    for (size_t e = 0; e <= mesh->points; e++) {
+        const bool first = e == 0, last = e == mesh->points;
+        const double left = first ? mesh->first : y[e - 1], v0 = first ? 0 : y[mesh->points + e - 1],
+                     d = (last ? mesh->first + mesh->length : y[e]) - left,
+                     v1 = last ? 0 : y[mesh->points + e];
+        double at[GM_BETWEEN_INPUTS][PARTS + 1], v[PARTS + 1];
+        for (size_t i = 0; i <= PARTS; i++) {
+            at[0][i] = (double)i / PARTS;
+            at[1][i] = d;
+            at[2][i] = v0;
+            at[3][i] = v1;
+        }
+        gm_user_mesh_between(problem, at[0], v, PARTS + 1);
+        for (size_t i = 0; i <= PARTS; i++) {
+            const double wanted = i == 0 ? v0 : i == PARTS ? v1 : v[i];
+            if (!(fabs(v[i] - wanted) <= 1e-6 * (fabs(v0) + fabs(v1)))) {
+                return gm_refuse(sentence,
+                                 "between: is %.4g at s = %g between x = %.4g and %.4g, where v0 = %.4g and "
+                                 "v1 = %.4g; it is finite, v0 at s = 0 and v1 at s = 1",
+                                 isnan(v[i]) ? NAN : v[i], at[0][i], left, left + d, v0, v1);
+            }
+        }
+    }
+    return true;
+}
+
 bool gm_field_start_mesh(const void *parameters, const struct gm_problem *problem,
                          const struct gm_scheme *scheme, double *y, char *sentence)
 {
@@ -37,9 +68,8 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
     const struct gm_system_lane *lane = parameters;
     const struct gm_mesh mesh = gm_mesh_of_problem(problem);
     const bool free = gm_scheme_mesh(scheme) == GM_MESH_FREE;
-    if (mesh.alone && !(free && mesh.cell)) {
-        return free ? gm_refuse(sentence, "cell: is 0, and nodes alone move by nothing else")
-                    : gm_refuse(sentence, "nodes alone are of free- schemes, and not of %s", scheme->name);
+    if (mesh.alone && !mesh.cell) {
+        return gm_refuse(sentence, "cell: is 0, and nodes alone move by nothing else");
     }
     const size_t points = mesh.points;
     double rank, condition;
@@ -47,7 +77,17 @@ bool gm_field_start_mesh(const void *parameters, const struct gm_problem *proble
         if (free && mesh.cell && !isfinite(gm_mesh_energy(&mesh, y))) {
             return gm_refuse(sentence, "cell: the energy of the cells is not finite at the start");
         }
-        if (!free || !gm_mesh_mass(&mesh, y, &rank, &condition) || rank >= 2 * (double)points) {
+        if (mesh.alone && !joins(problem, &mesh, y, sentence)) {
+            return false;
+        }
+        if (!free || !gm_mesh_mass(&mesh, y, &rank, &condition)) {
+            return true;
+        }
+        if (condition < 0) {
+            return gm_refuse(sentence,
+                             "cell: the mass matrix is not positive at the start: inertia is below 0");
+        }
+        if (rank >= 2 * (double)points) {
             return true;
         }
         return mesh.alone

@@ -225,8 +225,10 @@ static void make_work(struct gm_user_field *field)
     const struct gm_system_lane *initial = field->of_file.initial;
     const double points = (double)initial->grid.points;
     struct gm_work *work = &field->of_file.work;
-    *work = (struct gm_work){
-        .arguments = "", .coarsest = gm_system_half_length(initial) / points * 2, .halvings = 5};
+    *work = (struct gm_work){.arguments = "", .halvings = 5};
+    if (!field->of_file.system.alone) { /* nodes alone have no grid to compare a step with */
+        work->coarsest = gm_system_half_length(initial) / points * 2;
+    }
     if (field->solved) {
         work->measure = "solution_error";
     } else if (field->kind == &gm_field_moving_waves) { /* peakons have nodes of their own number */
@@ -244,6 +246,16 @@ static void make_work(struct gm_user_field *field)
             field->errors[i] = gm_pow(10, -1 - (double)i);
         }
     }
+}
+
+/* The reason why a key has no effect: places that are listed leave nothing to the number and the density of nodes. */
+static const char *idle(const void *parameters, const char *key)
+{
+    const struct gm_system_lane *lane = parameters;
+    const bool places = strcmp(key, "points") == 0 || strcmp(key, "density") == 0;
+    return places && lane->owner->system.alone && gm_mesh_lists_nodes(lane->grid.nodes)
+               ? "nodes: lists the places, unless it is nodes=density"
+               : gm_system_idle(parameters, key);
 }
 
 static const char *title_of(struct gm_user_field *field)
@@ -407,7 +419,7 @@ static void make(struct gm_system_making *making)
                            .asked_count = by_matrices ? GM_COUNT(law) : 0,
                            .preferences = kind->preferences,
                            .t0 = gm_field_t0,
-                           .idle = gm_system_idle,
+                           .idle = idle,
                            .setup = gm_field_setup,
                            .close = gm_user_line_close,
                            .start = gm_field_start,

@@ -16,10 +16,19 @@ struct gm_mesh gm_mesh_of(const struct gm_view *view)
     return mesh;
 }
 
-double gm_view_measure(const struct gm_view *view, enum gm_mesh_measure measure)
+double gm_view_mesh_measure(const struct gm_view *view)
 {
+    /* in the order of enum gm_mesh_measure; energy_error is the energy, until its start is subtracted */
+    static const char *const keys[] = {"energy", "momentum_error", "constraint_defect", "straightest",
+                                       "smallest_cell"};
     const struct gm_mesh mesh = gm_mesh_of(view);
-    return gm_mesh_measure(&mesh, view->state, measure);
+    size_t i = 0;
+    while (strncmp(view->observable->key, keys[i], strlen(keys[i])) != 0) {
+        i++;
+    }
+    return i == GM_MEASURE_DEFECT && gm_scheme_mesh(view->scheme) != GM_MESH_MOVING
+               ? NAN
+               : gm_mesh_measure(&mesh, view->state, (enum gm_mesh_measure)i);
 }
 
 double gm_mesh_exact(const struct gm_view *view, double x, double t)
@@ -91,22 +100,12 @@ const struct gm_observable gm_mesh_errors[2] = {
                   .missing = "no shift in time brings the exact solution near"),
 };
 
-double gm_view_mesh_energy(const struct gm_view *view)
-{
-    return gm_view_measure(view, GM_MEASURE_ENERGY);
-}
-
 static double field_energy(const struct gm_view *view)
 {
     struct gm_mesh mesh = gm_mesh_of(view);
     const bool adds = mesh.cell;
     mesh.cell = NULL;
     return adds ? gm_mesh_energy(&mesh, view->state) : NAN;
-}
-
-static double straightest(const struct gm_view *view)
-{
-    return gm_view_measure(view, GM_MEASURE_STRAIGHTEST);
 }
 
 /* The rank of the mass matrix, or its condition, by the observable's key. */
@@ -119,25 +118,15 @@ static double mass(const struct gm_view *view)
 }
 
 const struct gm_observable gm_mesh_asked[3] = {
-    GM_LOG_OBSERVABLE("straightest", straightest, "least difference of slopes at a node"),
+    GM_LOG_OBSERVABLE("straightest", gm_view_mesh_measure, "least difference of slopes at a node"),
     GM_OBSERVABLE("mass_rank", mass, "rank of the mass matrix", .missing = "there are more than 255 nodes"),
     GM_LOG_OBSERVABLE("mass_condition", mass, "condition of the mass matrix",
                       .missing = "there are more than 255 nodes"),
 };
 
-static double constraint_defect(const struct gm_view *view)
-{
-    return gm_scheme_mesh(view->scheme) == GM_MESH_MOVING ? gm_view_measure(view, GM_MEASURE_DEFECT) : NAN;
-}
-
 static double multiplier_norm(const struct gm_view *view)
 {
     return gm_mesh_multiplier_norm(view->run);
-}
-
-double gm_view_smallest_cell(const struct gm_view *view)
-{
-    return gm_view_measure(view, GM_MEASURE_NARROWEST);
 }
 
 double gm_view_newton_iterations(const struct gm_view *view)
@@ -151,12 +140,12 @@ double gm_view_factorisations(const struct gm_view *view)
 }
 
 const struct gm_observable gm_mesh_observables[8] = {
-    GM_OBSERVABLE("energy", gm_view_mesh_energy, "discrete energy"),
-    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_energy, "E", "energy error"),
+    GM_OBSERVABLE("energy", gm_view_mesh_measure, "discrete energy"),
+    GM_KEPT_OBSERVABLE("energy_error", gm_view_mesh_measure, "E", "energy error"),
     /* cells take energy from the field, so that it is not lost */
     GM_LOG_OBSERVABLE("field_energy_error", field_energy, "energy error of the field alone", .error = true,
                       .symbol = "E", .missing = "cells have no energy of their own"),
-    GM_LOG_OBSERVABLE("constraint_defect", constraint_defect, "defect of the mesh constraint",
+    GM_LOG_OBSERVABLE("constraint_defect", gm_view_mesh_measure, "defect of the mesh constraint",
                       .missing = "nothing constrains this mesh"),
     GM_OBSERVABLE("multiplier_norm", multiplier_norm, "largest multiplier"),
     GM_MESH_SOLVING,

@@ -32,9 +32,6 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const
                        const struct gm_mesh *mesh)
 {
     double *points = gm_picture_memory(picture, 2 * EXACT_POINTS * sizeof *points);
-    if (!points) {
-        return;
-    }
     for (size_t i = 0; i < EXACT_POINTS; i++) {
         const double x = mesh->first + mesh->length * (double)i / (EXACT_POINTS - 1);
         points[2 * i] = x;
@@ -48,9 +45,6 @@ static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, 
 {
     const size_t points = mesh->points, place = gm_mesh_place(mesh), value = mesh->alone ? points : 0;
     double *nodes = gm_picture_memory(picture, 2 * (points + 2) * sizeof *nodes);
-    if (!nodes) {
-        return NULL;
-    }
     nodes[0] = mesh->first;
     nodes[1] = mesh->left;
     for (size_t k = 0; k < points; k++) {
@@ -70,7 +64,7 @@ static void draw_line(struct gm_picture *picture, struct gm_panel *panel, const 
     const struct gm_mesh mesh = gm_mesh_of(view);
     const size_t cells = mesh.points + 1;
     double *line = gm_picture_memory(picture, mesh.alone ? 2 * (cells * PARTS + 1) * sizeof *line : 1);
-    if (!mesh.alone || !line) {
+    if (!mesh.alone) {
         gm_mark_line(picture, panel, style, nodes, cells + 1, false);
         return;
     }
@@ -108,7 +102,7 @@ static bool find_axes(const double *block, size_t n, double axes[2][2])
 }
 
 /* Tyranowski and Desbrun's figure 1 for every node: displacements of one kinetic energy, the same for all nodes, with
-   which half of the ellipses are wider than a 35th of the panel. They end at the neighbours. Along the field a straight
+   which half of the ellipses are wider than a 35th of the panel. Halves that would pass a neighbour end there. Along the field a straight
    node has a segment, whose displacements have no energy. */
 static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          const double *nodes)
@@ -122,7 +116,7 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
     double *mass = gm_picture_memory(picture, (n * n + 1) * sizeof *mass),
            *sizes = gm_picture_memory(picture, mesh.points * sizeof *sizes), around[2 * AROUND], axes[2][2];
     size_t count = 0;
-    if (!mass || !sizes || !gm_mesh_mass_matrix(&mesh, view.state, mass)) {
+    if (!gm_mesh_mass_matrix(&mesh, view.state, mass)) {
         return;
     }
     for (size_t k = 0; k < mesh.points; k++) {
@@ -138,11 +132,11 @@ static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, con
             gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 1, 2.4, GM_SOLID}, node - 2, 3, false);
             continue;
         }
-        const double reach = scale * axes[0][1], left = (node[-2] - node[0]) / reach,
-                     right = (node[2] - node[0]) / reach;
+        const double reach = scale * axes[0][1], left = fmin(1, (node[0] - node[-2]) / reach),
+                     right = fmin(1, (node[2] - node[0]) / reach);
         for (size_t i = 0; i < AROUND; i++) {
-            const double angle = 2 * M_PI * (double)i / AROUND,
-                         c = scale * fmax(left, fmin(right, gm_cos(angle))), s = scale * gm_sin(angle);
+            const double angle = 2 * M_PI * (double)i / AROUND, along = gm_cos(angle),
+                         c = scale * along * (along < 0 ? left : right), s = scale * gm_sin(angle);
             around[2 * i] = node[0] + c * axes[0][1] + s * axes[1][1];
             around[2 * i + 1] = node[1] + c * axes[0][0] + s * axes[1][0];
         }
@@ -159,13 +153,10 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const bool inertia = show == GM_MESH_INERTIA;
     double *nodes = nodes_of(picture, &mesh, view.start);
-    if (nodes && view.t != view.t0 && !inertia) {
+    if (view.t != view.t0 && !inertia) {
         draw_line(picture, panel, &view, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes);
     }
     nodes = nodes_of(picture, &mesh, view.state);
-    if (!nodes) {
-        return;
-    }
     draw_line(picture, panel, &view, (struct gm_style){role, inertia ? 0.4 : 1, 1.6, GM_SOLID}, nodes);
     if (inertia) {
         draw_inertia(picture, panel, lane, nodes);
@@ -213,7 +204,7 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
     const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
                                    GM_SOLID};
     double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
-    for (size_t k = 0; path && k < entries->width; k++) {
+    for (size_t k = 0; k < entries->width; k++) {
         for (size_t i = 0; i < entries->count; i++) {
             path[2 * i] = entries->values[i * entries->width + k];
             path[2 * i + 1] = entries->times[i];
@@ -267,54 +258,39 @@ static double farthest(const struct gm_lane *lane, size_t series, double from)
 static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                              bool of_energy)
 {
-    const int error =
-        gm_asked_series(picture, lanes[0]->scene, of_energy ? "energy_error" : "solution_error");
-    struct gm_panel *panel =
-        gm_panel_add(picture, GM_PLACE_GRAPH,
-                     of_energy ? "largest error of the energy" : "largest error at any node and step");
-    double *all = gm_picture_memory(picture, 4 * count * sizeof *all), *line = all ? all + 2 * count : NULL;
-    if (!all || error < 0) {
-        return;
-    }
+    const int error = gm_scene_observable(lanes[0]->scene, of_energy ? "energy_error" : "solution_error");
+    const struct gm_axis empty = {.label = "", .scale = GM_LOG, .low = 1, .high = 0};
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH,
+                                          of_energy    ? "largest error of the energy"
+                                          : error >= 0 ? "largest error at any node and step"
+                                                       : "no error: the file has no exact solution, exact:");
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){.label = of_energy ? "Δt" : "elements", .scale = GM_LOG, .low = 1, .high = 0};
-    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
-    for (size_t i = 0; i < count; i++) {
-        all[2 * i] = of_energy ? fabs(lanes[i]->run->dt) : (double)(lanes[i]->problem.n / 4 + 1);
-        all[2 * i + 1] = lanes[i]->run->status == GM_OK ? farthest(lanes[i], (size_t)error, 0) : NAN;
-        gm_range_add(&panel->x.low, &panel->x.high, all[2 * i]);
-        gm_range_add(&panel->y.low, &panel->y.high, all[2 * i + 1]);
+    panel->x = panel->y = empty;
+    panel->x.label = of_energy ? "Δt" : "elements";
+    size_t series = 0;
+    for (size_t i = 0; error >= 0 && i < count; i++) {
+        double *line = gm_picture_memory(picture, 2 * count * sizeof *line);
+        size_t made = 0, first = 0;
+        while (lanes[first]->scheme != lanes[i]->scheme) {
+            first++;
+        }
+        for (size_t k = i; first == i && k < count; k++) {
+            const double largest = farthest(lanes[k], (size_t)error, 0);
+            if (lanes[k]->scheme == lanes[i]->scheme && lanes[k]->run->status == GM_OK && isfinite(largest)) {
+                line[2 * made] = of_energy ? fabs(lanes[k]->run->dt) : (double)(lanes[k]->problem.n / 4 + 1);
+                line[2 * made + 1] = largest;
+                gm_range_add(&panel->x.low, &panel->x.high, line[2 * made]);
+                gm_range_add(&panel->y.low, &panel->y.high, line[2 * made++ + 1]);
+            }
+        }
+        if (made > 0) {
+            gm_chart_line(picture, panel, gm_chart_style(series++), line, made, lanes[i]->scheme->title);
+        }
     }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LOG);
     panel->x.low /= 1.3;
     panel->x.high *= 1.3;
-    panel->y.high *= of_energy ? 10 : 1; /* room for names */
-    size_t series = 0;
-    for (size_t i = 0; i < count; i++) {
-        size_t made = 0, first = count;
-        for (size_t k = 0; k < count; k++) {
-            if (lanes[k]->scheme == lanes[i]->scheme) {
-                first = first < k ? first : k;
-                line[2 * made] = all[2 * k];
-                line[2 * made + 1] = all[2 * k + 1];
-                made += isfinite(all[2 * k + 1]);
-            }
-        }
-        if (first < i || made == 0) {
-            continue;
-        }
-        const enum gm_role role = gm_lane_role(series);
-        const bool under = of_energy && series % 2; /* lines may coincide */
-        const double *at = line + (under ? 2 * made - 2 : 0), room = under ? -0.05 : 0.03;
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, line, made,
-                     false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, line, made);
-        gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, at[0],
-                     at[1] * gm_pow(panel->y.high / panel->y.low, room), GM_ANCHOR_LEFT,
-                     lanes[i]->scheme->title);
-        series++;
-    }
 }
 
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
@@ -339,8 +315,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         gm_shared_step(picture, lanes, count), one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
         fields && (exact || later) ? ";" : "", fields && exact ? "  grey: exact" : "",
         fields && exact && later ? "," : "", fields && later ? "  red: at the start" : "",
-        look->show == GM_MESH_INERTIA ? ";  ellipses: displacements of one kinetic energy,  red: of none"
-                                      : "");
+        look->show == GM_MESH_INERTIA ? ";  ellipses: equal kinetic energy,  red: none" : "");
 }
 
 /* Draws each panel's lanes in graphs of their own, one above another, all on one scale. */

@@ -132,6 +132,7 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
     const bool sine_gordon = soliton->field == GM_SINE_GORDON, two = soliton->solitons == 2;
     const double alpha = gm_soliton_alpha(soliton);
     *mesh = (struct gm_mesh){
+        .level = 1,
         .points = (size_t)soliton->points,
         .length = soliton->length,
         .left = sine_gordon ? (two ? -2 * M_PI : 0) : -1,

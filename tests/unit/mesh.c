@@ -318,6 +318,7 @@ static void derivatives_of_an_element(void **unused)
         const struct gm_density_numbers numbers = {(enum gm_closed_density)(which / 4 % 6),
                                                    which < 24 ? GM_SINE_GORDON : GM_PHI4, 1.3, 2.5, 0.4};
         const struct gm_mesh mesh = {.points = 1,
+                                     .level = 1,
                                      .length = 12,
                                      .density = gm_closed_density(&numbers),
                                      .potential = potentials[which / 24]};

@@ -128,7 +128,7 @@ static double energy_drift(const struct gm_mesh_subject *subject, int64_t steps)
     if (!gm_trial_advance(&trial, subject->start, state)) {
         return INFINITY;
     }
-    return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
+    return fabs(gm_mesh_energy(&subject->mesh, state) / initial - 1);
 }
 
 /* The order, from differences between runs with halved steps; return after a reversed step; the change of

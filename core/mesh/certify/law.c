@@ -6,19 +6,17 @@
    Gauss' method of order 2,
        L_e(z, z') = h l_e((z + z') / 2, v),
    with the places and velocities of a known mesh, at the middle of the step, instead of means.
-   Where the Euler-Lagrange equations hold at the nodes, the symplectic form of any stretch of nodes a ... b
-   changes by what its two ends let through:
-       sum_{i=a}^{b} (dq_i' ^ dp_i' - dq_i ^ dp_i)
-               = f(a, a-1) + f(b, b) - dell_a ^ dlambda_a + dell_b ^ dlambda_b
-       f(i, e) = dq_i' ^ d(dL_e/dq_i') + dq_i ^ d(dL_e/dq_i)
-   on motions of three steps that the scheme makes. Momenta are those of the discrete Lagrangian of the step
-   before, the multipliers those that the places ask for: nothing is taken from the scheme but where the
-   nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
-   S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
+   By the formula the symplectic form of any stretch of nodes changes over a step by what the two ends of the stretch
+   let through. d(dL_e) = 0 for every element, whose ell are equal, so that the formula of a stretch is the sum of
+   those of its nodes; and the formula of one node is
+       dq_i ^ dR_i = 0,   R_i = sum over elements at i of dL_e/dq' of the step before and dL_e/dq of this one
+   on motions of two steps that the scheme makes; R_i = 0 are the discrete Euler-Lagrange equations. The multipliers
+   are those with which the equations of X hold: nothing is taken from the scheme but where the nodes are. Tyranowski
+   & Desbrun (2019), sections 4.2 and 4.3, eqs. 109, 154-155; J.E. Marsden, G.W. Patrick & S. Shkoller, Commun. Math.
+   Phys. 199 (1998) 351. */
 #include "core/mesh/certify/subject.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <string.h>
 
 #include "core/linear/iteration.h"
@@ -26,13 +24,9 @@
 
 enum { POINTS = 3, ELEMENTS = POINTS + 1, DIRECTIONS = 2 * POINTS };
 
-/* Numbers of a motion; [..][2] are those of y and X. */
+/* q_i = (y, X) and R_i of all nodes; of the ends, which are held, the numbers mean nothing. */
 struct motion {
-    double here[POINTS + 2][2], next[POINTS + 2][2]; /* q_i and q_i' */
-    double momentum[POINTS + 2][2];                  /* p_i, of the step before */
-    double push[ELEMENTS][2][2];                     /* dL_e/dq' at both ends of the element */
-    double pull[ELEMENTS][2][2];                     /* dL_e/dq, with the multiplier's share */
-    double lambda[POINTS + 2], ell[ELEMENTS];
+    double place[POINTS + 2][2], rest[POINTS + 2][2];
 };
 
 /* The law that is measured: for the trapezoidal rule or that of the midpoint, with the elements at the start and the end
@@ -67,12 +61,25 @@ static bool place(const struct law *law, double t, const double *from, const dou
     return true;
 }
 
-/* Multipliers with which the Euler-Lagrange equations of X hold, (dg/dX)^T lambda = rest. */
-static bool find_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2], double *lambda)
+/* Adds to R_i the derivatives by the end of a step, or by its start: h/2 times the force there, and the mean momentum. */
+static void differentiate(const struct law *law, bool by_end, double rest[POINTS + 2][2])
 {
-    double matrix[POINTS * POINTS] = {0};
+    const double half = law->subject->trial.dt / 2, sign = by_end ? 0.5 : -0.5;
+    const struct gm_elements *first = &law->at[0], *last = &law->at[1], *at = by_end ? last : first;
     for (size_t k = 1; k <= POINTS; k++) {
-        lambda[k] = rest[k][1];
+        rest[k][0] += half * (at->force_y1[k - 1] + at->force_y0[k]) +
+                      sign * (gm_momentum_u(first, k) + gm_momentum_u(last, k));
+        rest[k][1] += half * (at->force_d[k - 1] - at->force_d[k]) +
+                      sign * (gm_momentum_v(first, k) + gm_momentum_v(last, k));
+    }
+}
+
+/* Adds the multipliers' part, with which the equations of X hold: (dg/dX)^T lambda = R_X. */
+static bool add_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2])
+{
+    double matrix[POINTS * POINTS] = {0}, lambda[POINTS], share[ELEMENTS];
+    for (size_t k = 1; k <= POINTS; k++) {
+        lambda[k - 1] = rest[k][1];
         for (size_t i = 0; i < 4; i++) { /* both ends of the elements k - 1 and k: g_k = ell_k - ell_(k-1) */
             const size_t e = k - 1 + i / 2, node = e + i % 2;
             const double by = at->gradient[2 * (i % 2) + 1][e];
@@ -81,33 +88,15 @@ static bool find_multipliers(const struct gm_elements *at, double rest[POINTS + 
             }
         }
     }
-    return gm_eliminate(POINTS, matrix, lambda + 1);
-}
-
-/* dL_e/dq' and dL_e/dq at both ends of all elements: h/2 times the derivative of l by the place there, and the mean
-   momentum. */
-static void differentiate(const struct law *law, double push[ELEMENTS][2][2], double pull[ELEMENTS][2][2])
-{
-    const double h = law->subject->trial.dt;
-    for (size_t i = 0; i < 2 * ELEMENTS; i++) {
-        const size_t e = i / 2, end = i % 2;
-        double force[2][2], momentum[2] = {0};
-        for (size_t side = 0; side < 2; side++) {
-            const struct gm_elements *at = &law->at[side];
-            const double u = (end ? at->momentum_u1 : at->momentum_u0)[e];
-            momentum[0] += u / 2;
-            momentum[1] -= at->slope[e] * u / 2;
-            if (at->cells) {
-                momentum[1] += (end ? at->cell_v1 : at->cell_v0)[e] / 2;
-            }
-            force[side][0] = h / 2 * (end ? at->force_y1 : at->force_y0)[e];
-            force[side][1] = h / 2 * (end ? at->force_d[e] : -at->force_d[e]);
-        }
-        for (size_t c = 0; c < 2; c++) {
-            push[e][end][c] = force[1][c] + momentum[c];
-            pull[e][end][c] = force[0][c] - momentum[c];
-        }
+    if (!gm_eliminate(POINTS, matrix, lambda)) {
+        return false;
     }
+    gm_nodes_spread(lambda, POINTS, 1, 0, share);
+    for (size_t i = 0; i < 4 * ELEMENTS; i++) {
+        const size_t e = i / 4, a = i % 4;
+        rest[e + a / 2][a % 2] -= share[e] * at->gradient[a][e];
+    }
+    return true;
 }
 
 /* Measures the motion from a shifted start; `data` is the law, and `values` the motion. */
@@ -116,9 +105,8 @@ static bool measure(const void *data, const double *by, double *values)
     const struct law *law = data;
     const struct gm_mesh_subject *subject = law->subject;
     const double h = subject->trial.dt, middle = subject->mesh.t + h / 2;
-    const struct gm_elements *at = &law->at[0];
     struct motion *motion = (struct motion *)values;
-    double states[3][4 * POINTS], push[ELEMENTS][2][2], rest[POINTS + 2][2] = {{0}};
+    double states[3][4 * POINTS];
     memset(motion, 0, sizeof *motion);
     struct gm_trial twice = subject->trial;
     twice.steps = 2;
@@ -127,70 +115,15 @@ static bool measure(const void *data, const double *by, double *values)
         !gm_trial_advance(&twice, states[0], states[2]) || !place(law, middle, states[0], states[1])) {
         return false;
     }
-    differentiate(law, push, motion->pull);
+    differentiate(law, true, motion->rest);
     if (!place(law, middle + h, states[1], states[2])) {
         return false;
     }
-    differentiate(law, motion->push, motion->pull);
-    memcpy(motion->ell, at->ell, sizeof motion->ell);
-    for (size_t c = 0; c < 2; c++) {
-        for (size_t i = 1; i <= POINTS; i++) {
-            motion->here[i][c] = states[1][c * POINTS + i - 1];
-            motion->next[i][c] = states[2][c * POINTS + i - 1];
-        }
-        for (size_t i = 0; i < 2 * ELEMENTS; i++) {
-            const size_t e = i / 2, end = i % 2;
-            motion->momentum[e + end][c] += push[e][end][c];
-            rest[e + end][c] += push[e][end][c] + motion->pull[e][end][c];
-        }
+    differentiate(law, false, motion->rest);
+    for (size_t i = 0; i < 2 * POINTS; i++) {
+        motion->place[i % POINTS + 1][i / POINTS] = states[1][i];
     }
-    if (subject->kind != GM_MESH_MOVING) {
-        return true;
-    }
-    if (!find_multipliers(at, rest, motion->lambda)) {
-        return false;
-    }
-    for (size_t e = 0; e < ELEMENTS; e++) {
-        const double share = motion->lambda[e] - motion->lambda[e + 1];
-        for (size_t a = 0; a < 4; a++) {
-            motion->pull[e][a / 2][a % 2] -= share * at->gradient[a][e];
-        }
-    }
-    return true;
-}
-
-/* dfirst ^ dsecond, given by pointers into the derivatives along two motions */
-static double wedge(const struct motion *v, const struct motion *w, size_t first, size_t second)
-{
-    const double *a = (const double *)v, *b = (const double *)w;
-    return a[first] * b[second] - b[first] * a[second];
-}
-
-#define AT(member) (offsetof(struct motion, member) / sizeof(double))
-
-static double through(const struct motion *v, const struct motion *w, size_t node, size_t element)
-{
-    const size_t end = node - element;
-    double sum = 0;
-    for (size_t c = 0; c < 2; c++) {
-        sum += wedge(v, w, AT(next) + 2 * node + c, AT(push) + 4 * element + 2 * end + c) +
-               wedge(v, w, AT(here) + 2 * node + c, AT(pull) + 4 * element + 2 * end + c);
-    }
-    return sum;
-}
-
-static double law_of(const struct motion *v, const struct motion *w, size_t a, size_t b)
-{
-    double sum = wedge(v, w, AT(ell) + a, AT(lambda) + a) - wedge(v, w, AT(ell) + b, AT(lambda) + b) -
-                 through(v, w, a, a - 1) - through(v, w, b, b);
-    for (size_t i = a; i <= b; i++) {
-        for (size_t c = 0; c < 2; c++) {
-            sum += wedge(v, w, AT(next) + 2 * i + c, AT(push) + 4 * (i - 1) + 2 + c) +
-                   wedge(v, w, AT(next) + 2 * i + c, AT(push) + 4 * i + c) -
-                   wedge(v, w, AT(here) + 2 * i + c, AT(momentum) + 2 * i + c);
-        }
-    }
-    return fabs(sum);
+    return subject->kind != GM_MESH_MOVING || add_multipliers(&law->at[0], motion->rest);
 }
 
 static double defect_of(const struct law *law)
@@ -202,12 +135,14 @@ static double defect_of(const struct law *law)
         if (!gm_mesh_derive(&map, v, (double *)&tangents[v])) {
             return INFINITY;
         }
-        for (size_t w = 0; w < v; w++) {
-            for (size_t a = 1; a <= POINTS; a++) {
-                for (size_t b = a; b <= POINTS; b++) {
-                    defect = fmax(defect, law_of(&tangents[v], &tangents[w], a, b));
-                }
+        for (size_t i = 0; i < v * POINTS; i++) {
+            const struct motion *a = &tangents[v], *b = &tangents[i / POINTS];
+            const size_t k = i % POINTS + 1;
+            double form = 0;
+            for (size_t c = 0; c < 2; c++) {
+                form += a->place[k][c] * b->rest[k][c] - b->place[k][c] * a->rest[k][c];
             }
+            defect = fmax(defect, fabs(form));
         }
     }
     return defect;

@@ -15,6 +15,6 @@
     .kind = &gm_kind_mesh, .schemes = schemes, .count = GM_COUNT(schemes),                                   \
     .workspace_open = gm_mesh_workspace_open, .workspace_close = gm_mesh_workspace_close,                    \
     .workspace_reset = gm_mesh_workspace_reset, .memory = gm_mesh_memory, .start = gm_mesh_restart,          \
-    .loop = gm_mesh_loop
+    .loop = gm_mesh_loop, .lacks = gm_mesh_lacks
 
 #endif

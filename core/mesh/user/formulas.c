@@ -19,10 +19,10 @@ struct line {
     const char *inputs[MOST_INPUTS + 1];
     bool smooth[MOST_INPUTS];
 };
-enum { SLOPE, FIELD, PLACE, OF_DENSITY };
+enum { SLOPE, FIELD, PLACE, OF_DENSITY = GM_DENSITY_INPUTS };
 enum { LABEL, TIME, OF_MAP };
 static const struct line density_line = {GM_WORD_DENSITY, {"u_x", "u", "x"}, {true, true}},
-                         map_line = {GM_WORD_MESH, {"x", "t"}, {false}},
+                         map_line = {GM_WORD_MESH, {"x", "t"}, {[TIME] = true}},
                          cell_line = {GM_WORD_CELL, {"d", "d_t", "m_t", "u_x"}, {true, true, true, true}},
                          between_line = {GM_WORD_BETWEEN, {"s", "d", "v0", "v1"}, {false}},
                          nodes_line = {GM_WORD_NODES, {NULL}, {false}};
@@ -319,6 +319,11 @@ static void read_between(struct reading *reading)
     open_tape(reading, &reading->formulas->between, &node, 1, GM_BETWEEN_INPUTS);
 }
 
+bool gm_mesh_lists_nodes(const char *text)
+{
+    return text && text[0] && strcmp(text, "density") != 0;
+}
+
 /* Formulas of parameters separated by commas. */
 static void read_nodes(struct reading *reading)
 {
@@ -342,7 +347,7 @@ static void read_lines(struct gm_arena *arena, void *data)
     reading->arena = arena;
     reading->of_system =
         gm_arena_take(arena, reading->names->wave->system->variable_count, sizeof(gm_node_id));
-    if (chosen->nodes && chosen->nodes[0] && strcmp(chosen->nodes, "density") != 0) {
+    if (gm_mesh_lists_nodes(chosen->nodes)) {
         read_nodes(reading);
     }
     read_density(reading);

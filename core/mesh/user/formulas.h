@@ -29,10 +29,13 @@ struct gm_user_mesh {
     double relax, until;
 };
 
+/* Returns true if the text has places, and is not NULL, empty or "density". */
+bool gm_mesh_lists_nodes(const char *text);
+
 /* The words for densities, NULL-terminated. */
 extern const char *const gm_user_densities[];
 
-enum { GM_BETWEEN_INPUTS = 4, GM_MOST_LISTED = 128 };
+enum { GM_DENSITY_INPUTS = 3, GM_BETWEEN_INPUTS = 4, GM_MOST_LISTED = 128 };
 
 /* The formulas of a mesh equation; tapes of lines that are not there have no outputs. */
 struct gm_mesh_formulas {

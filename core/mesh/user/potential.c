@@ -6,6 +6,7 @@
    integral. */
 #include "core/mesh/user/potential.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@
 #include "core/mesh/element.h"
 #include "core/user/line.h"
 
-enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, EXAMINED = 1024 /* places of the start */ };
+enum { MOST_NODES = 10, ROOM = 160, SAMPLES = 4096, PLACES = 1025 /* where a start is examined */ };
 enum { U, RATE, SLOPE, DRIFT, OF_START };
 
 struct own {
@@ -189,6 +190,34 @@ static void choose_numbers(struct gm_arena *arena, struct own *self, const doubl
     }
 }
 
+/* Writes the start at places all over the line, and the density there. */
+static void examine(const struct own *self, double values[OF_START * PLACES], double density[PLACES])
+{
+    const struct gm_grid1 grid = cells_of(&self->mesh, PLACES - 1);
+    double at[GM_DENSITY_INPUTS * PLACES];
+    gm_user_line_start(&self->line, &grid, values);
+    for (size_t i = 0; i < PLACES; i++) {
+        at[i] = values[SLOPE * PLACES + i];
+        at[PLACES + i] = values[U * PLACES + i];
+        at[2 * PLACES + i] = gm_grid1_node(&grid, i);
+    }
+    gm_tape_values(&self->formulas.rho, at, density, PLACES);
+}
+
+/* Returns a power of 2 near the least P at the start, or a billionth of its mean where it vanishes. */
+static double level_of(const struct own *self)
+{
+    double values[OF_START * PLACES], density[PLACES], least = INFINITY, sum = 0;
+    int exponent;
+    examine(self, values, density);
+    for (size_t i = 0; i < PLACES; i++) {
+        least = fmin(least, density[i] * density[i]);
+        sum += density[i] * density[i];
+    }
+    frexp(fmax(least, 1e-9 * sum / PLACES), &exponent);
+    return sum > 0 && isfinite(sum) ? ldexp(1, exponent - 1) : 1;
+}
+
 static void open_problem(struct gm_arena *arena, void *data)
 {
     const struct gm_line_opening *opening = data;
@@ -238,6 +267,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     gm_arena_keep(arena, formulas, gm_mesh_formulas_close);
     /* a formula that is refused is reported by gm_user_mesh_rests */
     gm_arena_need(arena, gm_mesh_formulas_open(formulas, &self->names, chosen));
+    self->mesh.level = formulas->refused[0] ? 1 : level_of(self);
     self->mesh.map = formulas->map.outputs > 0 ? &formulas->map : NULL;
     self->mesh.cell = formulas->cell.first.outputs > 0 ? &formulas->cell : NULL;
     self->mesh.listed = formulas->listed_count > 0 ? formulas->listed : NULL;
@@ -305,29 +335,33 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
     static const char *const suffixes[] = {"_t", "", "_x", "_t"};
     const struct own *self = problem->parameters;
     const struct gm_mesh *mesh = &self->mesh;
-    const struct gm_grid1 grid = cells_of(mesh, EXAMINED);
+    const struct gm_grid1 grid = cells_of(mesh, PLACES - 1);
     const bool held = gm_system_item_of(self->line.system, GM_WORD_ENDS, 0);
     const char *name = self->line.system->variables[0].name;
-    double values[OF_START * (EXAMINED + 1)], largest = 0;
+    double values[OF_START * PLACES], density[PLACES], largest = 0, highest = 0;
     if (self->formulas.refused[0]) {
         return gm_fail(fault, 0, "%s", self->formulas.refused);
+    }
+    /* round-off in g moves nodes by g/E; with this it does so a million times slower than light */
+    const double shortest = 1e6 * DBL_EPSILON * mesh->length * (double)(mesh->points + 1);
+    if (mesh->relax > 0 && mesh->relax < shortest) {
+        return gm_fail(fault, 0,
+                       "relax: is %g, and round-off would move %zu nodes: it is 0, or %.2g or longer",
+                       mesh->relax, mesh->points, shortest);
     }
     if ((mesh->map && (!map_suits(mesh, mesh->t, fault) || !map_suits(mesh, self->until, fault))) ||
         !places_grow(mesh, fault)) {
         return false;
     }
-    gm_user_line_start(&self->line, &grid, values);
-    for (size_t i = 0; i < grid.points; i++) {
-        const double x = gm_grid1_node(&grid, i), *at = values + i,
-                     of_density[] = {at[SLOPE * grid.points], at[U], x};
+    examine(self, values, density);
+    for (size_t i = 0; i < PLACES; i++) {
+        const double x = gm_grid1_node(&grid, i), *at = values + i, rho = density[i];
         for (size_t k = 0; k < GM_COUNT(numbers); k++) {
-            if (numbers[k] < self->line.start.outputs && !isfinite(at[numbers[k] * grid.points])) {
+            if (numbers[k] < self->line.start.outputs && !isfinite(at[numbers[k] * PLACES])) {
                 return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g",
                                numbers[k] == DRIFT ? "X" : name, suffixes[k], x);
             }
         }
-        double rho;
-        gm_tape_values(&self->formulas.rho, of_density, &rho, 1);
         if (!(rho >= 0 && isfinite(rho))) {
             return isnan(rho)
                        ? gm_fail(fault, 0, "density: is not a number at the start where x = %.6g", x)
@@ -336,7 +370,12 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
                              "density: is %.6g at the start where x = %.6g, and lies between 0 and infinity",
                              rho, x);
         }
-        largest = fmax(largest, fabs(at[RATE * grid.points]));
+        highest = fmax(highest, rho);
+        largest = fmax(largest, fabs(at[RATE * PLACES]));
+    }
+    if (!(highest > 0)) {
+        return gm_fail(fault, 0,
+                       "density: is 0 everywhere at the start; a constant above 0 makes a uniform mesh");
     }
     if (!isfinite(mesh->left) || !isfinite(mesh->right)) {
         return gm_fail(fault, 0, "ends: %.60s would be %g at one and %g at the other", name, mesh->left,
@@ -346,7 +385,7 @@ bool gm_user_mesh_rests(const struct gm_problem *problem, struct gm_fault *fault
         return gm_fail(fault, 0, "alpha: is %g with these values, and lies between 0 and 1e6",
                        self->names.alpha);
     }
-    const double left = values[RATE * grid.points], right = values[(RATE + 1) * grid.points - 1];
+    const double left = values[RATE * PLACES], right = values[(RATE + 1) * PLACES - 1];
     return held || fmax(fabs(left), fabs(right)) <= 1e-3 * largest ||
            gm_fail(fault, 0,
                    "%.60s is held at both ends of a moving mesh, and %.60s_t at the start is %.4g at one and "

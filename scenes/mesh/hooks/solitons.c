@@ -27,12 +27,16 @@ static bool suits(const struct gm_user_system *system)
 static double position(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_mesh_of(view);
-    const double *field = view->state, *place = field + mesh.points;
-    for (size_t k = 1; k < mesh.points && mesh.potential == &gm_potential_sine_gordon; k++) {
-        const double before = field[k - 1] - M_PI, after = field[k] - M_PI;
+    double before = mesh.left - M_PI, x = mesh.first;
+    for (size_t k = 0; k <= mesh.points && mesh.potential == &gm_potential_sine_gordon; k++) {
+        const bool inner = k < mesh.points;
+        const double after = (inner ? view->state[k] : mesh.right) - M_PI,
+                     next = inner ? view->state[mesh.points + k] : mesh.first + mesh.length;
         if (before * after <= 0 && before != after) {
-            return place[k - 1] + (place[k] - place[k - 1]) * before / (before - after);
+            return x + (next - x) * before / (before - after);
         }
+        before = after;
+        x = next;
     }
     return NAN;
 }
@@ -46,7 +50,7 @@ static double continuum_error(const struct gm_view *view)
         continuum = NAN;
     }
     free(values);
-    return fabs(gm_view_mesh_energy(view) - continuum) / continuum;
+    return fabs(gm_view_mesh_measure(view) - continuum) / continuum;
 }
 
 static const struct gm_observable observables[] = {
