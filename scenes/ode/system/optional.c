@@ -457,15 +457,19 @@ static double friction_of(const struct gm_problem *problem)
     return ode->action && ode->action->friction ? *ode->action->friction : ode->forced ? NAN : 0;
 }
 
+/* What short waves of the loop leave out may be as large as they are: an error that is not far above them, or above
+   round-off, is that of the loop's points. */
 static double loop_action_error(const struct gm_view *view)
 {
+    const double roundoff = 1e-12, above = 10;
     const struct gm_curve_action before = loop_at(view, view->start), now = loop_at(view, view->state);
-    const double roundoff = 1e-12,
-                 wanted =
+    const double wanted =
                      resolved(&before, most) * gm_exp(-friction_of(view->problem) * (view->t - view->t0)),
                  divisor = fabs(wanted) <= roundoff * now.magnitude ? now.magnitude : wanted,
-                 error = resolved(&now, most) - wanted;
-    return error == 0 ? 0 : error / divisor;
+                 error = resolved(&now, most) - wanted, least = fmax(fabs(error), roundoff * fabs(divisor));
+    return error == 0                                               ? 0
+           : above * (before.short_waves + now.short_waves) > least ? NAN
+                                                                    : error / divisor;
 }
 
 static const char *why_no_loop_error(const struct gm_view *view)
