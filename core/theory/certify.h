@@ -86,6 +86,8 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 /* Returns the claims that the base of a scheme makes and the scheme does not, but for those that were measured within
    the tolerance; 0 without a base. */
 unsigned gm_certificate_given_up(const struct gm_certificate *certificate);
+/* Returns true if nothing was measured, known by theory or refuted. */
+bool gm_certificate_is_empty(const struct gm_certificate *certificate);
 
 /* A quantity that the motion conserves. */
 struct gm_kept {
