@@ -179,6 +179,12 @@ for word, said in (("projected(rk4; L, angular_momentum)", "angular_momentum is 
     check(got.returncode == 1 and said in got.stderr, f"{word}: {got.stderr}")
 check("holds between events" in run("list", "bouncing-ball", "--invariants").stdout, "a bounce changes H")
 
+# a member that fails says why, whatever those after it do
+for members in "1", "4":
+    got = run("run", "figure-eight", "scheme=projected(saba4(kepler, interaction); H)", "steps=40", "members=" + members)
+    check(got.returncode == 2 and "found no way back to the value that H has at the start" in got.stdout,
+          f"{members} members: {got.stdout}")
+
 # ---- engines, members, files ----
 states = [numbers("kepler", "perturbation=0.01", "scheme=projected(rk4; H, L)", "dt=.05", "steps=200", "--state", "--engine", e)
           for e in ("interpreted", "auto")]

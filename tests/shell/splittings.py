@@ -449,6 +449,8 @@ def sentences_help():
             (system + ("scheme=strang(by rk4, B)",), "column 8: a part is a name, or NAME by SCHEME"),
             (system + ("scheme=strang(A by, B)",), "column 10: a part is a name, or NAME by SCHEME"),
             (system + ("scheme=strang(A, C)",), "A + C is not H"),
+            (system + ("scheme=strang(A by dopri5, B)",), "column 13: dopri5 cannot be a part of a step: it is adaptive"),
+            (system + ("scheme=lie(A by projected(rk4; H), B)",), "column 10: projected(rk4; H) cannot be a part of a step"),
             (typed + ("q2=1.5", "v1=0"), "so its state is the coordinates alone: leave out v1="),
             (typed + ("q2=1.5", "p1=0", "p2=0"), "leave out p1= p2="),
             (typed, "needs values that are not given: q2=\n")):

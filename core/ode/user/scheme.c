@@ -306,6 +306,22 @@ static struct own *make_splitting(const struct making *making)
 static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
 static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span);
 
+/* Refuses a scheme that cannot be a part of a step, with the reason. */
+static void check_part(const struct making *making, const struct gm_scheme *scheme, size_t place)
+{
+    const struct gm_family *family = scheme->family;
+    if (gm_scheme_composes(scheme)) {
+        return;
+    }
+    const bool again =
+        making->written->kind == GM_WRITTEN_PROJECTED || making->written->kind == GM_WRITTEN_RELAXED;
+    fail(making, place, "%.60s cannot be a part of a step: %s", scheme->name,
+         gm_holding_of(scheme) && again ? "name all invariants in one list, as in projected(rk4; H, L)"
+         : gm_holding_of(scheme)        ? "whole steps are corrected, as in projected(composition(...); H)"
+         : family->adaptive || family->by_tolerance ? "it is adaptive"
+                                                    : "it carries data from one step to the next");
+}
+
 /* Reads NAME, or NAME by SCHEME. */
 static struct gm_named_part read_part(const struct making *making, struct gm_span piece)
 {
@@ -322,7 +338,9 @@ static struct gm_named_part read_part(const struct making *making, struct gm_spa
              "a part is a name, or NAME by SCHEME, as in A by gauss4");
     }
     if (written && by.begin < by.end) {
-        part.by = scheme_of(making, gm_span_trimmed(text, (struct gm_span){by.begin + 3, by.end}));
+        const struct gm_span scheme = gm_span_trimmed(text, (struct gm_span){by.begin + 3, by.end});
+        part.by = scheme_of(making, scheme);
+        check_part(making, part.by, scheme.begin);
     }
     return part;
 }
@@ -755,22 +773,6 @@ static const struct gm_scheme *scheme_of(const struct making *making, struct gm_
              name, near ? "; did you mean " : "", near ? near : "");
     }
     return scheme;
-}
-
-/* Refuses a scheme that cannot be a part of a step, with the reason. */
-static void check_part(const struct making *making, const struct gm_scheme *scheme, size_t place)
-{
-    const struct gm_family *family = scheme->family;
-    if (gm_scheme_composes(scheme)) {
-        return;
-    }
-    const bool again =
-        making->written->kind == GM_WRITTEN_PROJECTED || making->written->kind == GM_WRITTEN_RELAXED;
-    fail(making, place, "%.60s cannot be a part of a step: %s", scheme->name,
-         gm_holding_of(scheme) && again ? "name all invariants in one list, as in projected(rk4; H, L)"
-         : gm_holding_of(scheme)        ? "whole steps are corrected, as in projected(composition(...); H)"
-         : family->adaptive || family->by_tolerance ? "it is adaptive"
-                                                    : "it carries data from one step to the next");
 }
 
 static struct named schemes_of(const struct making *making, enum gm_scheme_word word)
