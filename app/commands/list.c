@@ -436,7 +436,7 @@ static int list_source(const struct gm_options *options, const char *word)
     struct gm_file file;
     char message[GM_MESSAGE] = "";
     size_t length = 0;
-    bool unreadable, found = find_source(word, &file);
+    bool unreadable = false, found = find_source(word, &file);
     const struct gm_scheme *scheme = found ? NULL : gm_scheme_named(word, &unreadable, message);
     gm_command_end_if(options, message[0], unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
     if (scheme && scheme->word) {

@@ -238,7 +238,6 @@ struct typing {
     bool usual;                  /* the coordinates are q or q1, q2, as none are given */
     bool velocities;             /* velocities are called v, or v1, v2 */
     bool alone;           /* the coordinates are the state, as of an L that is linear in the velocities */
-    bool moves;           /* a formula has the velocity of a coordinate */
     const char *needless; /* alone: " v1= p1=", the words that give other values; NULL: none */
 };
 
@@ -602,17 +601,6 @@ static void refuse_words(const struct typing *typing)
                     "each component");
 }
 
-/* Returns true if a formula has the velocity of a coordinate. */
-static bool has_velocity(const struct typing *typing)
-{
-    bool found = typing->velocities;
-    for (struct use use = {0}; !found && next_use(typing, &use);) {
-        const char *name = name_of(typing, &use);
-        found = strncmp(name, "v_", 2) == 0 && is_used(typing, name + 2, COMPONENT);
-    }
-    return found;
-}
-
 static void put_typed(struct gm_arena *arena, void *data)
 {
     static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", "mesh", NULL};
@@ -650,7 +638,6 @@ static void put_typed(struct gm_arena *arena, void *data)
     if (typing->usual) {
         add_usual_coordinates(typing);
     }
-    typing->moves = has_velocity(typing);
     put_starts_or_parameters(typing, false);
     put_starts_or_parameters(typing, true);
     put_missing(typing);
@@ -680,7 +667,7 @@ bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place
         file->parts = NULL;
         file->length = file->part_count = 0;
         file->missing = NULL;
-        if (!run(file, put_typed, &alone, message) || !alone.moves || !is_degenerate(file)) {
+        if (!run(file, put_typed, &alone, message) || file->missing || !is_degenerate(file)) {
             *file = usual;
             *place = before;
             message[0] = '\0';

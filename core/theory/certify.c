@@ -38,9 +38,6 @@ bool gm_certificate_is_empty(const struct gm_certificate *certificate)
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         measured = measured || certificate->claims[bit].measured || certificate->claims[bit].undecided;
     }
-    for (size_t i = 0; i < certificate->held_count; i++) {
-        measured = measured || certificate->held[i].verdict.measured;
-    }
     return !measured && certificate->holds;
 }
 

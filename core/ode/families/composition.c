@@ -29,19 +29,12 @@ bool gm_scheme_is_composition(const struct gm_scheme *scheme)
 
 const char *gm_scheme_without_theory(const struct gm_scheme *scheme)
 {
-    bool known = gm_scheme_has_coefficients(scheme);
-    if (gm_scheme_is_composition(scheme)) {
-        const struct gm_substeps *substeps = scheme->coefficients;
-        known = true;
-        for (int i = 0; i < substeps->count; i++) {
-            known = known && gm_scheme_has_coefficients(substeps->at[i].scheme);
-        }
-    }
-    return scheme->base                       ? "the way back to an invariant has no coefficients"
-           : scheme->needs & GM_NEEDS_PARTS   ? "it splits into parts with names, and not into T and V"
-           : known                            ? "it has more than 256 stages"
-           : gm_scheme_is_composition(scheme) ? "a part of its step has no coefficients"
-                                              : "it has no coefficients";
+    return scheme->base                     ? "the way back to an invariant has no coefficients"
+           : scheme->needs & GM_NEEDS_PARTS ? "it splits into parts with names, and not into T and V"
+           : gm_scheme_is_composition(scheme)
+               ? "a part of its step has no coefficients, or it has more than 256 stages"
+           : gm_scheme_has_coefficients(scheme) ? "it has more than 256 stages"
+                                                : "it has no coefficients";
 }
 
 int gm_scheme_over_kernels(const struct gm_scheme *scheme)

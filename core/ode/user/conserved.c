@@ -206,15 +206,13 @@ static void resolve(struct gm_arena *arena, void *data)
     }
     if (naming->node == GM_NO_NODE) {
         const char *names = names_of(arena, system);
-        if (naming->searched) {
-            refuse(arena, naming, "an invariant %.40s (there are %.160s; list --invariants finds %s)",
-                   naming->name, names[0] ? names : "none with a name",
-                   naming->unnamed > 0 ? gm_arena_print(arena, "%s1 to %s%zu", word, word, naming->unnamed)
-                                       : "no other");
-        }
-        refuse(arena, naming,
-               "an invariant %.40s (there are %.160s%s those that list --invariants finds: %s1, %s2, ...)",
-               naming->name, names, names[0] ? ", and" : "only", word, word);
+        const char *others =
+            !naming->searched
+                ? gm_arena_print(arena, "those that list --invariants finds: %s1, %s2, ...", word, word)
+            : naming->unnamed > 0 ? gm_arena_print(arena, "%s1 to %s%zu", word, word, naming->unnamed)
+                                  : "list --invariants finds no other";
+        refuse(arena, naming, "an invariant %.40s (there are %.160s%s %s)", naming->name, names,
+               names[0] ? ", and" : "only", others);
     }
     if (!trusted) {
         check_rate(arena, naming);
@@ -224,12 +222,7 @@ static void resolve(struct gm_arena *arena, void *data)
 gm_node_id gm_user_conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
                              char *lacks)
 {
-    struct naming naming = {.problem = problem,
-                            .data = gm_user_data_of(problem),
-                            .name = name,
-                            .graph = graph,
-                            .node = GM_NO_NODE,
-                            .lacks = lacks};
+    struct naming naming = {problem, gm_user_data_of(problem), name, graph, GM_NO_NODE, lacks, false, 0};
     lacks[0] = '\0';
     return gm_arena_run_once(resolve, &naming) ? naming.node : GM_NO_NODE;
 }

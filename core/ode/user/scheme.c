@@ -295,7 +295,7 @@ static struct own *make_splitting(const struct making *making)
         }
     }
     const struct gm_parts_row corrected = {.parts = 2,
-                                           .list = {{"kinetic"}, {"potential"}},
+                                           .list = {{.name = "kinetic"}, {.name = "potential"}},
                                            .corrector = corrector->said ? corrector->numbers[0].value : 0};
     return of_pieces(making, &pieces, making->written->nystrom || corrector->said ? GM_NEEDS_NYSTROM : 0,
                      corrector->said ? &corrected : NULL);
@@ -313,11 +313,8 @@ static void check_part(const struct making *making, const struct gm_scheme *sche
     if (gm_scheme_composes(scheme)) {
         return;
     }
-    const bool again =
-        making->written->kind == GM_WRITTEN_PROJECTED || making->written->kind == GM_WRITTEN_RELAXED;
     fail(making, place, "%.60s cannot be a part of a step: %s", scheme->name,
-         gm_holding_of(scheme) && again ? "name all invariants in one list, as in projected(rk4; H, L)"
-         : gm_holding_of(scheme)        ? "whole steps are corrected, as in projected(composition(...); H)"
+         gm_holding_of(scheme) ? "whole steps are corrected, as in projected(composition(...); H, L)"
          : family->adaptive || family->by_tolerance ? "it is adaptive"
                                                     : "it carries data from one step to the next");
 }

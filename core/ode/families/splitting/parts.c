@@ -84,7 +84,7 @@ struct work {
     const struct gm_scheme *scheme;
     const struct gm_parts_row *row;
     struct part *parts;
-    size_t *column;          /* of the part that is opened, from 1; 0: no word names it */
+    size_t column;           /* of the part that is opened, from 1; 0: no word names it */
     size_t counted, carrier; /* counted: the last part with a flow; carrier: the part that moves the time */
     struct flow *flows;
     size_t flow_count;
@@ -153,7 +153,7 @@ static const char *name_of(size_t i, const void *names)
 /* " (column 8)": where a word names the part that is opened; "" if no word does. */
 static const char *column_of(const struct work *work)
 {
-    return *work->column > 0 ? gm_arena_print(work->arena, " (column %zu)", *work->column) : "";
+    return work->column > 0 ? gm_arena_print(work->arena, " (column %zu)", work->column) : "";
 }
 
 /* The names of all parts, or the nearest one, in words. */
@@ -260,7 +260,7 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
 {
     const struct gm_ode *ode = gm_ode_of(work->problem);
     const char *name = named->name;
-    *work->column = named->column;
+    work->column = named->column;
     const bool given = named->by || gm_part_is_given(work->problem, name);
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
@@ -391,7 +391,7 @@ static void list_parts(struct work *work)
         work->counted = work->parts[i].how != STEPS ? i : work->counted;
         work->carrier = work->carrier == row->parts && !work->parts[i].timed ? i : work->carrier;
     }
-    *work->column = 0;
+    work->column = 0;
     const char *difference = parts ? parts->differ(work->arena, work->problem, names, count) : NULL;
     if (difference) {
         gm_arena_refuse(work->arena, "%s", difference);
@@ -407,17 +407,9 @@ static void list_parts(struct work *work)
     }
 }
 
-/* What is opened, and the column, which outlives it. */
-struct opening {
-    const struct gm_problem *problem;
-    const struct gm_scheme *scheme;
-    size_t column;
-    struct work *opened;
-};
-
 static void open_work(struct gm_arena *arena, void *data)
 {
-    struct opening *opening = data;
+    struct gm_workspace *opening = data;
     struct work *work = opening->opened = gm_arena_take(arena, 1, sizeof *work);
     const size_t n = opening->problem->n;
     size_t largest = n;
@@ -425,7 +417,6 @@ static void open_work(struct gm_arena *arena, void *data)
                           .problem = opening->problem,
                           .scheme = opening->scheme,
                           .row = opening->scheme->coefficients,
-                          .column = &opening->column,
                           .dt = NAN};
     gm_formula_open(&work->graph);
     gm_arena_keep(arena, &work->graph, gm_formula_close);
@@ -452,17 +443,16 @@ static void open_work(struct gm_arena *arena, void *data)
     work->matrix = gm_arena_take(arena, dense ? 3 * (n + 1) * (n + 1) : 0, sizeof *work->matrix);
 }
 
-/* NULL: the sentence is the reason, and *column that of the part that is lacking. */
+/* NULL: the sentence is the reason. */
 static struct work *open_by(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            char sentence[GM_FAULT_SENTENCE], size_t *column)
+                            char sentence[GM_FAULT_SENTENCE])
 {
     struct gm_arena *arena = gm_arena_open();
-    struct opening opening = {problem, scheme, 0, NULL};
+    struct gm_workspace opening = {problem, scheme, NULL};
     if (gm_arena_run(arena, open_work, &opening)) {
         return opening.opened;
     }
     snprintf(sentence, GM_FAULT_SENTENCE, "%s", gm_arena_reason(arena));
-    *column = opening.column;
     gm_arena_close(arena);
     return NULL;
 }
@@ -470,8 +460,7 @@ static struct work *open_by(const struct gm_problem *problem, const struct gm_sc
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     char sentence[GM_FAULT_SENTENCE];
-    size_t column;
-    return open_by(problem, scheme, sentence, &column);
+    return open_by(problem, scheme, sentence);
 }
 
 static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
@@ -481,35 +470,12 @@ static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem
     if (!scheme->word && row->corrector == 0) {
         return NULL; /* the facets solve the parts of the program's own rows */
     }
-    size_t column;
-    struct work *work = open_by(problem, scheme, sentence, &column);
+    struct work *work = open_by(problem, scheme, sentence);
     if (!work) {
         return sentence;
     }
     gm_workspace_close(work);
     return NULL;
-}
-
-size_t gm_parts_column(const struct gm_scheme *scheme, const struct gm_problem *problem)
-{
-    char sentence[GM_FAULT_SENTENCE];
-    size_t column = 0;
-    const struct gm_scheme *named = scheme->by_names ? scheme->by_names : scheme;
-    if (named->base) {
-        return gm_parts_column(named->base, problem);
-    }
-    if (gm_scheme_is_composition(named)) {
-        const struct gm_substeps *substeps = named->coefficients;
-        for (int i = 0; i < substeps->count && column == 0; i++) {
-            column = gm_parts_column(substeps->at[i].scheme, problem);
-        }
-        return column;
-    }
-    struct work *work = named->family == &gm_family_parts ? open_by(problem, named, sentence, &column) : NULL;
-    if (work) {
-        gm_workspace_close(work);
-    }
-    return column;
 }
 
 /* ---- steps ---- */
@@ -740,13 +706,24 @@ static struct gm_progress loop(const struct gm_task *task)
 
 /* ---- rows ---- */
 
-/* The body of gm_part_flow: opens the only part. */
+/* Opens the only part. */
 static void open_one(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     gm_formula_open(&work->graph);
     gm_arena_keep(arena, &work->graph, gm_formula_close);
     open_part(work, work->parts, &work->row->list[0]);
+}
+
+/* Returns how the flow of a part is computed; HOWS: it is not known. */
+static enum how how_of(const struct gm_problem *problem, const struct gm_named_part *named)
+{
+    const struct gm_parts_row row = {.list = {*named}};
+    struct part part = {.how = KICK};
+    struct work work = {.arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part};
+    const bool known = gm_arena_run(work.arena, open_one, &work);
+    gm_arena_close(work.arena);
+    return known ? part.how : HOWS;
 }
 
 const char *gm_part_flow(const struct gm_problem *problem, const char *name)
@@ -756,24 +733,33 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
     if (ode->split && (kinetic || strcmp(name, "potential") == 0) && !gm_part_is_given(problem, name)) {
         return kinetic ? "a drift" : words[KICK];
     }
-    const struct gm_parts_row row = {.list = {{name}}};
-    struct part part = {.how = KICK};
-    size_t column;
-    struct work work = {
-        .arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part, .column = &column};
-    const bool known = gm_arena_run(work.arena, open_one, &work);
-    gm_arena_close(work.arena);
-    return known ? words[part.how] : NULL;
+    const enum how how = how_of(problem, &(struct gm_named_part){.name = name});
+    return how < HOWS ? words[how] : NULL;
+}
+
+size_t gm_parts_column(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_scheme *named = scheme->by_names ? scheme->by_names : scheme;
+    const struct gm_substeps *substeps = gm_scheme_is_composition(named) ? named->coefficients : NULL;
+    const struct gm_parts_row *row = named->family == &gm_family_parts ? named->coefficients : NULL;
+    size_t column = named->base ? gm_parts_column(named->base, problem) : 0;
+    for (int i = 0; substeps && i < substeps->count && column == 0; i++) {
+        column = gm_parts_column(substeps->at[i].scheme, problem);
+    }
+    for (size_t i = 0; row && i < row->parts && column == 0; i++) {
+        column = how_of(problem, &row->list[i]) == HOWS ? row->list[i].column : 0;
+    }
+    return column;
 }
 
 #include "core/corrected_schemes.def"
 
 static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
-                                                       .list = {{"interaction"}, {"kepler"}}},
+                                                       .list = {{.name = "interaction"}, {.name = "kepler"}}},
                                  rest_linear = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                 .parts = 2,
-                                                .list = {{"rest"}, {"linear"}}},
+                                                .list = {{.name = "rest"}, {.name = "linear"}}},
                                  once = {.parts = 0}, twice = {.of_pieces = &gm_composition_none},
                                  suzuki4 = {.of_pieces = &gm_composition_suzuki4},
                                  kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
