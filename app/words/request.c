@@ -308,7 +308,8 @@ static void find_schemes(struct gm_arena *arena, struct gm_request *request)
                 spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
                 unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
                 lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
-                request->unfit_column = unfit ? gm_parts_column(unfit, &problem) : 0;
+                const size_t column = unfit ? gm_parts_column(unfit, &problem) : 0;
+                request->unfit_offset = column > 0 ? column - 1 : 0;
             }
         }
         if (scene->close) {
@@ -557,7 +558,7 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, cons
         const struct gm_request refused = *request;
         gm_request_close(request);
         *request = (struct gm_request){
-            .refusal = refused.refusal, .unfit = refused.unfit, .unfit_column = refused.unfit_column};
+            .refusal = refused.refusal, .unfit = refused.unfit, .unfit_offset = refused.unfit_offset};
         memcpy(request->refused, refused.refused, sizeof refused.refused);
     }
     return made;

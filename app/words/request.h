@@ -47,7 +47,7 @@ struct gm_request {
     int refusal;                   /* the exit status of a request that was refused; 0: wrong usage */
     char refused[48];              /* the key that was refused, or "" */
     const struct gm_scheme *unfit; /* the scheme that was refused, or NULL */
-    size_t unfit_column;           /* in its word, from 1, of what is lacking; 0: of no part of the word */
+    size_t unfit_offset;           /* in its word, of what is lacking */
     char *arguments; /* the words it was read from, with the schemes' names; NULL: derived if needed */
 };
 

@@ -171,20 +171,6 @@ static struct gm_word_place word_of(const struct gm_arguments *words, const stru
     return (struct gm_word_place){-1, 0};
 }
 
-/* The place of a scheme that does not fit, or of the part of its word that is lacking. */
-static struct gm_word_place unfit_of(const struct gm_arguments *words, const struct gm_request *request)
-{
-    const size_t column = request->unfit_column;
-    for (int i = 1; i < words->count; i++) {
-        const char *word = words->words[i],
-                   *found = strncmp(word, "scheme=", 7) == 0 ? strstr(word, request->unfit->name) : NULL;
-        if (found) {
-            return (struct gm_word_place){i, (size_t)(found - word) + (column > 0 ? column - 1 : 0)};
-        }
-    }
-    return (struct gm_word_place){-1, 0};
-}
-
 /* The scene that the words name, which `trial` gets if it is made; NULL with a sentence and its place. */
 static const struct gm_scene *scene_of(const struct gm_arguments *words, struct gm_system_trial *trial,
                                        struct gm_word_place *place, char *message)
@@ -215,7 +201,10 @@ bool gm_typed_request(struct gm_request *request, const char *line, size_t schem
     const struct gm_scene *scene = words.failed ? NULL : scene_of(&words, &trial, &place, message);
     const bool read = scene && gm_request_parse_for(made, scene, words.count, words.words, schemes, message);
     if (!read) {
-        place = made->unfit ? unfit_of(&words, made) : scene ? word_of(&words, scene, made->refused) : place;
+        place = scene ? word_of(&words, scene, made->unfit ? "scheme" : made->refused) : place;
+        const char *word = made->unfit && place.word > 0 ? words.words[place.word] : NULL,
+                   *unfit = word ? strstr(word, made->unfit->name) : NULL;
+        place.offset = unfit ? (size_t)(unfit - word) + made->unfit_offset : place.offset;
         fail(fault, message);
         const bool shown = place.word >= 0 && place.word >= shift;
         fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;

@@ -32,15 +32,6 @@ unsigned gm_certificate_given_up(const struct gm_certificate *certificate)
     return lost;
 }
 
-bool gm_certificate_is_empty(const struct gm_certificate *certificate)
-{
-    bool measured = !isnan(certificate->order) || certificate->theory.known;
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        measured = measured || certificate->claims[bit].measured || certificate->claims[bit].undecided;
-    }
-    return !measured && certificate->holds;
-}
-
 void gm_certificate_withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
 {
     struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);

@@ -67,8 +67,8 @@ struct gm_certificate {
     double order;
     struct gm_ladder ladder; /* ladder of order_problem */
     bool order_holds;
-    const char *order_problem;
-    const char *order_reason; /* reason without an order on a given system, or its refutation */
+    const char *order_problem; /* "": a scheme of the user fits no problem */
+    const char *order_reason;  /* reason without an order on a given system, or its refutation */
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* verdicts by bit number */
     struct gm_held_verdict held[GM_MOST_HELD_VERDICTS];
     size_t held_count;
@@ -86,8 +86,6 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 /* Returns the claims that the base of a scheme makes and the scheme does not, but for those that were measured within
    the tolerance; 0 without a base. */
 unsigned gm_certificate_given_up(const struct gm_certificate *certificate);
-/* Returns true if nothing was measured, known by theory or refuted. */
-bool gm_certificate_is_empty(const struct gm_certificate *certificate);
 
 /* A quantity that the motion conserves. */
 struct gm_kept {

@@ -27,16 +27,6 @@ bool gm_scheme_is_composition(const struct gm_scheme *scheme)
     return scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying;
 }
 
-const char *gm_scheme_without_theory(const struct gm_scheme *scheme)
-{
-    return scheme->base                     ? "the way back to an invariant has no coefficients"
-           : scheme->needs & GM_NEEDS_PARTS ? "it splits into parts with names, and not into T and V"
-           : gm_scheme_is_composition(scheme)
-               ? "a part of its step has no coefficients, or it has more than 256 stages"
-           : gm_scheme_has_coefficients(scheme) ? "it has more than 256 stages"
-                                                : "it has no coefficients";
-}
-
 int gm_scheme_over_kernels(const struct gm_scheme *scheme)
 {
     if (scheme->base) {

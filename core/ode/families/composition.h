@@ -17,8 +17,6 @@ struct gm_substeps {
 /* Returns true if a scheme may be a part of a composition. */
 bool gm_scheme_composes(const struct gm_scheme *scheme);
 bool gm_scheme_is_composition(const struct gm_scheme *scheme);
-/* Returns the reason why theory does not know a scheme. */
-const char *gm_scheme_without_theory(const struct gm_scheme *scheme);
 /* Returns the number of the loop over kernels that a scheme's steps, or those of its base, call, or GM_OVER_ALL if the
    parts of a composition call several. */
 int gm_scheme_over_kernels(const struct gm_scheme *scheme);
