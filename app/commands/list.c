@@ -420,18 +420,35 @@ _Noreturn static void refuse_name(const struct gm_options *options, const char *
         word, found ? "; did you mean " : "", found ? found : "");
 }
 
+/* Returns false if nothing of that name has a file. */
+static bool find_source(const char *word, struct gm_file *file)
+{
+    enum gm_file_kind kind = GM_FILE_SYSTEM;
+    while (kind < GM_FILE_MESH && !find_file(kind, word, file)) {
+        kind++;
+    }
+    return kind < GM_FILE_MESH;
+}
+
+/* A scheme may have its word for a file, and an alias has the file of what it means. */
 static int list_source(const struct gm_options *options, const char *word)
 {
     struct gm_file file;
-    char message[GM_MESSAGE];
+    char message[GM_MESSAGE] = "";
     size_t length = 0;
-    enum gm_file_kind kind = GM_FILE_SYSTEM;
-    while (kind < GM_FILE_MESH && !find_file(kind, word, &file)) {
-        kind++;
+    bool unreadable = false, found = find_source(word, &file);
+    const struct gm_scheme *scheme = found ? NULL : gm_scheme_named(word, &unreadable, message);
+    gm_command_end_if(options, message[0], unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    if (scheme && scheme->word) {
+        puts(scheme->word);
+        return GM_EXIT_OK;
     }
-    if (kind == GM_FILE_MESH) {
-        gm_command_end_if(options, gm_scene_find(word) || gm_scheme_find(word) || find_list(word),
-                          GM_EXIT_USAGE, "%.60s has no file", word);
+    const char *meaning = gm_alias_meaning(word);
+    found = found || (scheme && find_source(scheme->name, &file)) || (meaning && find_source(meaning, &file));
+    gm_command_end_if(options, !found && (scheme || gm_scene_find(word) || find_list(word)), GM_EXIT_USAGE,
+                      "%.60s has no file, for it is a part of the program; geomint list %.60s describes it",
+                      word, word);
+    if (!found) {
         refuse_name(options, word);
     }
     char *text = gm_file_read(&file, GM_LARGEST_SYSTEM, &length, message);

@@ -83,7 +83,7 @@ static bool is_meant(const struct outcome *outcome, size_t i)
 /* The reason for its missing value, or NULL. */
 static const char *missing(const struct outcome *outcome, size_t i)
 {
-    return isnan(outcome->values[i]) && is_meant(outcome, i)
+    return !isfinite(outcome->values[i]) && is_meant(outcome, i)
                ? gm_lane_missing(outcome->drive.lane, outcome->outputs->chosen.numbers[i])
                : NULL;
 }
@@ -340,7 +340,8 @@ static void write_row(struct outcome *outcome)
     }
     fprintf(csv, "%s,%.17g,%s", outcome->front, lane->run->t, tell_end(outcome, sentence, sizeof sentence));
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
-        fprintf(csv, ",%.17g", observe_told(outcome, i));
+        const double value = observe_told(outcome, i);
+        fprintf(csv, ",%.17g", isnan(value) ? fabs(value) : value); /* a NaN has no sign */
     }
     fputc('\n', csv);
     outcome->outputs->csv_why = ferror(csv) ? errno : 0;

@@ -533,11 +533,15 @@ static const char *part_equations(const struct report *report, const char *part)
     gm_arena_keep(report->arena, graph, gm_formula_close);
     gm_ode_of(problem)->parts->rates(report->arena, problem, part, graph, rates);
     for (size_t i = 0; i < report->system.n && strlen(text) < most; i++) {
-        char *rate = gm_is_constant(graph, rates[i], 0) ? NULL : gm_formula_text(graph, rates[i], &naming);
-        if (rate) {
-            text = gm_arena_print(report->arena, "%s%s %s' = %s", text, text[0] ? "," : "",
-                                  report->system.variables[i].name, rate);
+        const gm_node_id tidied = gm_formula_tidied(graph, rates[i], &naming);
+        gm_arena_need(report->arena, tidied != GM_NO_NODE);
+        if (gm_is_constant(graph, tidied, 0)) {
+            continue;
         }
+        char *rate = gm_formula_text(graph, tidied, &naming);
+        rate = rate ? rate : gm_formula_text(graph, rates[i], &naming);
+        text = gm_arena_print(report->arena, "%s%s %s' = %s", text, text[0] ? "," : "",
+                              report->system.variables[i].name, rate ? rate : "a long formula");
         free(rate);
     }
     return strlen(text) < most ? text[0] ? text : " it is 0 here"
@@ -548,6 +552,7 @@ static const char *part_equations(const struct report *report, const char *part)
 static void put_parts(const struct report *report, struct gm_row *row)
 {
     const struct gm_ode *ode = gm_system_is_field(&report->system) ? NULL : gm_ode_of(&report->problem);
+    bool headed = row != NULL;
     for (const char *const *name = ode && ode->parts ? ode->parts->names : NULL; name && *name; name++) {
         const char *flow = gm_part_flow(&report->problem, *name);
         if (!flow && (size_t)(name - ode->parts->names) >= ode->parts->given) {
@@ -559,16 +564,10 @@ static void put_parts(const struct report *report, struct gm_row *row)
         if (row) {
             gm_row_text(row, *name, told);
         } else {
+            printf(headed ? "" : "\nparts\n");
+            headed = true;
             gm_print_wrapped(told, printf("  %-16s ", *name), 19);
         }
-    }
-}
-
-static void print_parts(const struct report *report)
-{
-    if (!gm_system_is_field(&report->system) && gm_ode_of(&report->problem)->parts) {
-        printf("\nparts\n");
-        put_parts(report, NULL);
     }
 }
 
@@ -1320,7 +1319,7 @@ void gm_list_structure(const struct gm_options *options, const struct gm_file *f
     if (!gm_system_is_form(&report->system)) {
         open_problem(report);
         print_facts(report);
-        print_parts(report);
+        put_parts(report, NULL);
     }
 }
 
@@ -1347,7 +1346,7 @@ int gm_list_system(const struct gm_options *options, const struct gm_file *file)
         print_kept(report);
         if (options->longer) {
             print_facts(report);
-            print_parts(report);
+            put_parts(report, NULL);
             print_schemes(report);
         }
     }

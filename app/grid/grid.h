@@ -106,6 +106,7 @@ struct gm_grid {
     /* work-precision */
     char settings[160];  /* the words that set parameters which all runs share: "viscosity=0.05" */
     bool best;           /* the most promising built-in schemes are added */
+    bool best_is_none;   /* no such scheme was found */
     const char *measure; /* "solution_error" or an observable's key */
     bool observed;       /* it is the observable, not the distance of the states */
     const char *measure_title;

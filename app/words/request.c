@@ -15,6 +15,7 @@
 #include "app/words/words.h"
 #include "core/arena.h"
 #include "core/memory.h"
+#include "core/ode/families/splitting/parts.h"
 #include "core/ode/ode.h"
 #include "core/schemes.h"
 #include "scenes/common/symbol.h"
@@ -307,12 +308,15 @@ static void find_schemes(struct gm_arena *arena, struct gm_request *request)
                 spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
                 unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
                 lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
+                const size_t column = unfit ? gm_parts_column(unfit, &problem) : 0;
+                request->unfit_offset = column > 0 ? column - 1 : 0;
             }
         }
         if (scene->close) {
             scene->close(&problem);
         }
     }
+    request->unfit = unfit;
     if (unfit) {
         gm_arguments_tell_scene(scene, words, sizeof words);
         gm_arena_refuse(arena,
@@ -553,7 +557,8 @@ static bool parse(struct gm_request *request, const struct gm_scene *scene, cons
     if (!made) {
         const struct gm_request refused = *request;
         gm_request_close(request);
-        request->refusal = refused.refusal;
+        *request = (struct gm_request){
+            .refusal = refused.refusal, .unfit = refused.unfit, .unfit_offset = refused.unfit_offset};
         memcpy(request->refused, refused.refused, sizeof refused.refused);
     }
     return made;

@@ -43,10 +43,12 @@ struct gm_request {
     size_t count;
     struct gm_change *changes; /* sorted by step */
     size_t change_count;
-    bool overlay;     /* all lanes in one panel */
-    int refusal;      /* the exit status of a request that was refused; 0: wrong usage */
-    char refused[48]; /* the key that was refused, or "" */
-    char *arguments;  /* the words it was read from, with the schemes' names; NULL: derived if needed */
+    bool overlay;                  /* all lanes in one panel */
+    int refusal;                   /* the exit status of a request that was refused; 0: wrong usage */
+    char refused[48];              /* the key that was refused, or "" */
+    const struct gm_scheme *unfit; /* the scheme that was refused, or NULL */
+    size_t unfit_offset;           /* in its word, of what is lacking */
+    char *arguments; /* the words it was read from, with the schemes' names; NULL: derived if needed */
 };
 
 /* Returns true if the last step of a run with this scheme is shortened to end at the requested until: one of
@@ -62,7 +64,7 @@ const struct gm_scene *gm_request_scene(int count, char *const words[], int *sta
 
 /* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes", "overlay=yes" (the scene
    first). `schemes`: the number of preferred schemes if none is given. Returns false with one sentence in
-   message (GM_MESSAGE bytes); the request is then empty, except `refusal` and `refused`. */
+   message (GM_MESSAGE bytes); the request is then empty, except `refusal`, `refused` and `unfit`. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message);
 /* The same for a scene that is known, and named by the first word; NULL: it is found. */

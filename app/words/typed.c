@@ -201,7 +201,10 @@ bool gm_typed_request(struct gm_request *request, const char *line, size_t schem
     const struct gm_scene *scene = words.failed ? NULL : scene_of(&words, &trial, &place, message);
     const bool read = scene && gm_request_parse_for(made, scene, words.count, words.words, schemes, message);
     if (!read) {
-        place = scene ? word_of(&words, scene, made->refused) : place;
+        place = scene ? word_of(&words, scene, made->unfit ? "scheme" : made->refused) : place;
+        const char *word = made->unfit && place.word > 0 ? words.words[place.word] : NULL,
+                   *unfit = word ? strstr(word, made->unfit->name) : NULL;
+        place.offset = unfit ? (size_t)(unfit - word) + made->unfit_offset : place.offset;
         fail(fault, message);
         const bool shown = place.word >= 0 && place.word >= shift;
         fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;
@@ -271,12 +274,7 @@ bool gm_typed_check_scheme(const char *line, struct gm_typed_fault *fault)
         whole = NULL;
         fail(fault, "not enough memory");
     } else if (!gm_typed_check(whole, fault)) {
-        /* the sentence on what a scene lacks has the column in the word */
-        const char *within = strstr(fault->sentence, "(column ");
-        long column = 0;
-        fault->at = (long)begin + (within && sscanf(within, "(column %ld)", &column) == 1 ? column - 1
-                                   : fault->at < first                                    ? 0
-                                                       : fault->at - first);
+        fault->at = (long)begin + (fault->at < first ? 0 : fault->at - first);
     }
     free(scheme);
     free(whole);

@@ -237,7 +237,8 @@ struct typing {
     bool has[FORMULAS];          /* true for the keys that are given */
     bool usual;                  /* the coordinates are q or q1, q2, as none are given */
     bool velocities;             /* velocities are called v, or v1, v2 */
-    bool alone; /* the coordinates are the state, as of an L that is linear in the velocities */
+    bool alone;           /* the coordinates are the state, as of an L that is linear in the velocities */
+    const char *needless; /* alone: " v1= p1=", the words that give other values; NULL: none */
 };
 
 /* A name in a typed formula, or in a list of components. */
@@ -377,6 +378,16 @@ static void add_usual_coordinates(struct typing *typing)
     }
 }
 
+/* Returns true for v1, v_q1 or p1 beside a coordinate q1 that is the state alone. */
+static bool is_needless(const struct typing *typing, const char *name)
+{
+    const bool momentum = name[0] == 'p' && !is_used(typing, name, VARIABLE);
+    const char *coordinate = name[0] == '\0'  ? ""
+                             : name[1] == '_' ? name + 2
+                                              : gm_arena_print(typing->arena, "q%s", name + 1);
+    return typing->alone && (momentum || name[0] == 'v') && is_used(typing, coordinate, COMPONENT);
+}
+
 /* The words that give a component its value at the start, or the others, which are parameters. */
 static void put_starts_or_parameters(struct typing *typing, bool starts)
 {
@@ -385,7 +396,11 @@ static void put_starts_or_parameters(struct typing *typing, bool starts)
         const char *word = file->words[i], *equals = strchr(word, '=');
         const struct gm_word_place at = {.word = i}, value = {i, equals ? (size_t)(equals + 1 - word) : 0};
         const char *name = gm_arena_print(typing->arena, "%.*s", (int)strcspn(word, "[="), word);
-        if (equals && !is_typed(word) && has_value(typing, name) && is_part(typing, name) == starts) {
+        if (starts && equals && !is_typed(word) && is_needless(typing, name)) {
+            *typing->wrong = at;
+            typing->needless =
+                gm_arena_print(typing->arena, "%s %s=", typing->needless ? typing->needless : "", name);
+        } else if (equals && !is_typed(word) && has_value(typing, name) && is_part(typing, name) == starts) {
             put(file, starts ? "start: " : "parameter: ", word, value.offset - 1, " = ", at);
             put(file, "", equals + 1, gm_word_first(equals + 1), "\n", value);
         }
@@ -645,15 +660,22 @@ bool gm_typed_file_write(struct gm_typed_file *file, struct gm_word_place *place
     if (!run(file, put_typed, &typing, message)) {
         return false;
     }
-    if (file->missing && typing.usual && typing.has[FORMULA_L]) {
+    if (typing.usual && typing.has[FORMULA_L]) {
         const struct gm_typed_file usual = *file;
+        const struct gm_word_place before = *place;
         file->text = NULL;
         file->parts = NULL;
         file->length = file->part_count = 0;
         file->missing = NULL;
         if (!run(file, put_typed, &alone, message) || file->missing || !is_degenerate(file)) {
             *file = usual;
+            *place = before;
             message[0] = '\0';
+        } else if (alone.needless) {
+            gm_refuse(message,
+                      "L is linear in the velocities, so its state is the coordinates alone: leave out%s",
+                      alone.needless);
+            return false;
         }
     }
     return true;

@@ -33,6 +33,7 @@ bool gm_curve_add_action(const double *q, const double *p, size_t count, struct 
         action -= factor * cimag(share);
         sum->waves += size;
         sum->short_waves += 4 * w >= count ? size : 0;
+        sum->middle_waves += 4 * w < count && 8 * w >= count ? size : 0;
     }
     sum->action += action;
     sum->magnitude += fabs(action);

@@ -6,9 +6,9 @@
 #include <stddef.h>
 
 /* The sum over closed curves (q, p) of the integral of p dq, of its magnitude, and of the magnitudes of the shares
-   of all waves and of the upper half of those that the points carry. */
+   of all waves and of the two upper octaves of those that the points carry. */
 struct gm_curve_action {
-    double action, magnitude, waves, short_waves;
+    double action, magnitude, waves, middle_waves, short_waves;
 };
 
 /* Adds the curve through `count` points at equal distances of a parameter from 0 to 2 pi. Returns false when

@@ -286,6 +286,11 @@ static void check_lines(const struct reading *reading)
                 scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
                 words[word].word);
     }
+    const struct gm_span base = scheme->lines[GM_SCHEME_WORD_BASE].value;
+    fail_if(reading, scheme->kind == GM_WRITTEN_CALLED && !scheme->lines[GM_SCHEME_WORD_PARTS].said,
+            base.begin,
+            "%.*s() names no parts; a splitting takes those of a system, as in aba864(kinetic, potential)",
+            brief(base), reading->text + base.begin);
     for (int i = 0; i < kinds[scheme->kind].required; i++) {
         const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
         fail_if(reading, !scheme->lines[word].said, reading->span.begin,

@@ -67,8 +67,8 @@ struct gm_certificate {
     double order;
     struct gm_ladder ladder; /* ladder of order_problem */
     bool order_holds;
-    const char *order_problem;
-    const char *order_reason; /* reason without an order on a given system, or its refutation */
+    const char *order_problem; /* "": a scheme of the user fits no problem */
+    const char *order_reason;  /* reason without an order on a given system, or its refutation */
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* verdicts by bit number */
     struct gm_held_verdict held[GM_MOST_HELD_VERDICTS];
     size_t held_count;

@@ -60,7 +60,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane);
 /* The current value of an observable; NAN when out of memory. */
 double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 
-/* The reason why a computed observable is NaN; NULL without one. */
+/* The reason why a computed observable is not finite; NULL without one, as for what the motion conserves. */
 const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 /* Ends a good run as a blow-up if this value of an observable that the motion conserves is not finite, and has no reason
    for that. */

@@ -72,9 +72,15 @@ assert about["source"] == text' "$word" "$share" || fail "list $word --json"
 done
 
 # what has no file, and what there is not
-refused 1 '^geomint: vortices has no file$' list vortices --source
-refused 1 '^geomint: rk4 has no file$' list rk4 --source
-refused 1 '^geomint: systems has no file$' list systems --source
+refused 1 '^geomint: vortices has no file, .*geomint list vortices describes it$' list vortices --source
+refused 1 '^geomint: rk4 has no file, ' list rk4 --source
+refused 1 '^geomint: systems has no file, ' list systems --source
+
+# a word is its own source, and an alias has the file of what it means
+status 0 list 'composition( verlet;1/2,  1/2)' --source
+grep -qx 'composition(verlet; 1/2, 1/2)' out || fail "the source of a word: $(cat out)"
+status 0 list kick-drift-kick --source
+grep -q '^kicks: 1/2, 1/2' out || fail "the source of an alias: $(cat out)"
 refused 1 'did you mean toda' list tota --source
 refused 3 'could not be read' list ./none.system --source
 refused 1 'takes one name' list toda office --source

@@ -67,6 +67,19 @@ looped 0 2e-13 200 double-pendulum members=64 spread=.05 scheme=gauss4
 looped -5.8714e-6 1e-9 200 double-pendulum members=64 spread=.05 scheme=rk4
 looped nan 0 500 double-pendulum members=64 spread=.05 scheme=gauss4
 
+# a loop may be large beside its action, so that its points make an error that a symplectic scheme has not: no number
+status 0 run outer-planets shape=disc members=64 steps=0 --state --json
+cp out start
+status 0 run outer-planets shape=disc members=64 scheme=wisdom-holman2 dt=200 steps=100 --state --json --measure "$keys"
+sed '/^error, most/q' reference.py >sums.py
+cat >>sums.py <<'END'
+numbers, before, now = last["observables"], action(ring(first)), action(ring(last))
+assert abs(now / before - 1) > 0.01 and share(ring(last)) < 1e-4, (now, before)
+assert numbers["loop_action_error"] is None and abs(numbers["loop_action"] / now - 1) < 1e-9, numbers
+assert last["reasons"]["loop_action_error"] == "the loop is not resolved with 63 points", last["reasons"]
+END
+python3 sums.py 0 0 || fail "the error of a loop's points: $(head -c 600 out)"
+
 # a ring of places alone has the action 0, and the error is then a share of both loops
 printf 'view: a, b\n' >>two.system
 for row in verlet:5e-14 rk4:5e-5 explicit-euler:1; do

@@ -372,6 +372,9 @@ def names_mean_parts_of_the_system():
     check(own == 0, f"the program's kinetic and potential are off by {own}")
 
 
+HIDDEN = ("system", "rate=x = y*z", "rate=y = -2*x*z", "rate=z = x*y", "x=1", "y=.5", "z=.3", "dt=.1")
+
+
 def certificates_are_not_passed_by_nothing():
     for words, status, found in (
             (("relaxed(rk4; L; claims: keeps energy)", "--on", "kepler"), 4, "conserves energy               BROKEN"),
@@ -382,17 +385,88 @@ def certificates_are_not_passed_by_nothing():
             (("projected(rk4; H, L)", "--on", "kepler"), 0, "conserves energy               holds"),
             (("midpoint", "--on", "system", "H=p^2/2e-6 + 1e-6*q^4/4", "q=1", "p=1e-4", "dt=.1"), 0,
              "conserves quadratic invariants not measured"),
+            (("composition(rk4; 1; claims: keeps quadratic invariants)", "--on", *HIDDEN), 4,
+             "conserves quadratic invariants BROKEN"), # by those that are found
+            (("midpoint", "--on", *HIDDEN), 0, "conserves quadratic invariants holds"),
+            (("composition(gauss4; 1; claims: keeps energy)", "--on", "henon-heiles"), 4, "conserves energy               BROKEN"),
             (("strang(kepler, interaction)",), 0, "order 2, measured 2.000 (kepler-perturbed)"),
             (("aba864(D by explicit-euler, E)",), 0, "order 1,")):
         code, text = certify(*words)
         check(code == status and found in text, f"{words} ends with {code}: {text}")
 
 
-def best_adds_none_where_none_fits():
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([GEOMINT, "work-precision", "lotka-volterra-L", "scheme=degenerate-midpoint2,best",
-                               "until=1", "--out", folder], capture_output=True, text=True)
-        check(done.returncode == 0 and "degenerate-midpoint2 " in done.stdout, f"best without others: {done.stderr}")
+def best_adds_schemes_of_the_order_or_says_so():
+    for scheme, first, others, none in (
+            ("degenerate-midpoint2", "lotka-volterra-L", (), True), ("suzuki-umeno8", "kepler", (), False),
+            ("composition(midpoint; 1/2, 1/2)", "kepler", ("midpoint", "trapezoidal"), False),
+            ("rk2", "kepler", ("rk4",), False), ("rk4", "kepler", (), True)):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([GEOMINT, "work-precision", first, f"scheme={scheme},best", "until=1", "--out", folder],
+                                  capture_output=True, text=True)
+        lines = [line.split() for line in done.stdout.splitlines()]
+        names = [line[0] for line in lines[3:] if len(line) == 8]
+        check(done.returncode == 0 and ("best adds no scheme" in done.stdout) == none, f"best of {scheme}: {done}")
+        check("explicit-euler" not in names and all(o in names for o in others), f"best of {scheme} adds {names}")
+
+
+def work_of_parts_is_counted():
+    system = ("system", "H=p^2/2 + q^2/2 - q^4/9", "part=A = p^2/2 + q^2/2, B = -q^4/9", "q=1", "p=0", "dt=.5", "steps=10")
+    for scheme, count in (("lie(A by rk4, B)", 50), ("lie(A, B by rk4)", 50), ("lie(A by rk4, B by rk4)", 80),
+                          ("strang(A, B)", 10), ("projected(lie(A by rk4, B); H)", 50),
+                          ("composition(lie(A by rk4, B), lie(A, B); 1/2, 1/2)", 60)):
+        told = run(*system, "scheme=" + scheme)
+        found = told if isinstance(told, str) else told[0]["evaluations"]
+        check(found == count, f"{scheme} has {found} evaluations, not {count}")
+
+
+def adjoints_and_compositions_have_the_claims_of_their_bases():
+    for scheme, claims, order in (
+            ("adjoint(boris2)", "=V", 2), ("adjoint(avf2)", "=RHL", 2), ("adjoint(rattle2)", "S=RNKT", 2),
+            ("adjoint(degenerate-midpoint2)", "S=", 2), ("composition(avf2; 1/2, 1/2)", "=RHL", 2),
+            ("composition(boris2; let: g = 1/(2 - 2^(1/3)); g, 1 - 2*g, g)", "=V", 2),
+            ("composition(rattle2; 1/3, 2/3)", "SNKT", 2), ("composition(degenerate-midpoint2; 1/2, 1/2)", "S=", 2),
+            ("composition(lie(D by rk4, E), adjoint(lie(D by rk4, E)); 1/2, 1/2)", "=", 2),
+            ("composition(lie(D by gauss4, E), adjoint(lie(D by gauss4, E)); 1/2, 1/2)", "S=", 2),
+            ("composition(lie(D by rk4, E), adjoint(lie(D by rk2, E)); 1/2, 1/2)", "", 1)):
+        done = subprocess.run([GEOMINT, "list", scheme, "--json"], capture_output=True, text=True)
+        row = json.loads(done.stdout)
+        found = set(row["claims"])
+        keys = {"S": "symplectic", "=": "symmetric", "R": "reversible", "H": "keeps energy", "L": "keeps linear invariants",
+                "V": "keeps volume", "N": "keeps momentum maps", "K": "keeps constraints", "T": "keeps hidden constraints"}
+        check(found == {keys[letter] for letter in claims} and row["order"] == order, f"{scheme}: {row['order']} {found}")
+    for scheme in "adjoint(boris2)", "composition(avf2; 1/2, 1/2)", "composition(rattle2; 1/2, 1/2)":
+        code, text = certify(scheme)
+        check(code == 0 and "BROKEN" not in text and "symmetric                      holds" in text, f"{scheme}: {text}")
+    code, text = certify("composition(explicit-euler, avf2; 1/2, 1/2; claims: keeps energy)")
+    check(code == 4 and "conserves energy               BROKEN" in text, f"a wrong claim is not refuted: {text}")
+
+
+def sentences_help():
+    system = ("system", "H=p^2/2+q^2/2", "part=A = p^2/2, B = q^2/2, C = q^2/2 + 1/0", "q=1", "p=0", "steps=1")
+    typed = ("system", "L=log(q2)/q1*v1 - (q1 - log(q1) + q2 - 2*log(q2))", "q1=2", "steps=1")
+    for words, sentence in (
+            (("henon-heiles", "scheme=aba864()"), "column 1: aba864() names no parts; a splitting takes those of a system"),
+            (system + ("scheme=strang(by rk4, B)",), "column 8: a part is a name, or NAME by SCHEME"),
+            (system + ("scheme=strang(A by, B)",), "column 10: a part is a name, or NAME by SCHEME"),
+            (system + ("scheme=strang(A, C)",), "A + C is not H"),
+            (system + ("scheme=strang(A by dopri5, B)",), "column 13: dopri5 cannot be a part of a step: it is adaptive"),
+            (system + ("scheme=lie(A by projected(rk4; H), B)",), "column 10: projected(rk4; H) cannot be a part of a step"),
+            (typed + ("q2=1.5", "v1=0"), "so its state is the coordinates alone: leave out v1="),
+            (typed + ("q2=1.5", "p1=0", "p2=0"), "leave out p1= p2=")):
+        done = subprocess.run([GEOMINT, "run", *words], capture_output=True, text=True)
+        check(done.returncode == 1 and sentence in done.stderr, f"{words}: {done.stderr}")
+    for name, found, there in (("henon-heiles", "q1' = p1, q2' = p2, p1' = -q1, p2' = -q2", True),
+                               ("abc", "\nparts\n", False), ("outer-planets", "it is 0 here", False)):
+        told = subprocess.run([GEOMINT, "list", name, "--long"], capture_output=True, text=True).stdout
+        check((found in told) == there, f"list {name} --long: {told[-1500:]}")
+    for words, sentence in (
+            (("relaxed(rk4; H)", "--on", "henon-heiles"), "not claimed  the length of a step depends on the state"),
+            (("strang(A, B)",), "it splits into parts with names, and not into T and V\n"),
+            (("strang(A, B)",), "\n0 certified, 0 broken: nothing was measured; name a system"),
+            (("adjoint(avf2)",), "theory does not apply: a part has no coefficients, or"),
+            (("composition(avf2; 1)",), "theory does not apply: a part has no coefficients, or")):
+        code, text = certify(*words)
+        check(code == 0 and sentence in text, f"{words}: {text}")
 
 
 def starts_at_a_singularity_are_refused():
@@ -426,7 +500,10 @@ def main():
     parts_are_typed()
     names_mean_parts_of_the_system()
     certificates_are_not_passed_by_nothing()
-    best_adds_none_where_none_fits()
+    best_adds_schemes_of_the_order_or_says_so()
+    work_of_parts_is_counted()
+    adjoints_and_compositions_have_the_claims_of_their_bases()
+    sentences_help()
     starts_at_a_singularity_are_refused()
     time_moves_with_the_first_part_without_it()
     rows_do_not_change_a_trajectory()

@@ -235,7 +235,7 @@ for left in "x'" dx/dt; do
     refused 1 "prime.system:1:.*a name alone: rate: x = -x gives x' = -x" run ./prime.system
 done
 printf 'coordinates: q\nH: p_q^2/2 + q^2/2\nforce: q = -0.1*p_q\nstart: q = 1, p_q = 0\n' >forced.system
-refused 1 'does not fit scene forced: it needs a Hamiltonian without the force: that acts here' run ./forced.system scheme=verlet
+refused 1 'does not fit scene forced: it needs a Hamiltonian on which no force acts; here the line force: adds one' run ./forced.system scheme=verlet
 # what is derived is printed in lowest terms, and what is typed as it was typed
 printf 'parameter: m = 2\ncoordinates: a r\nH: p_r^2/(2*m) + p_a^2/(2*m*r^2) + 2*r^2/4\nstart: a = 0, r = 1, p_a = 1, p_r = 0\n' >polar.system
 "$geomint" list ./polar.system >out || fail 'a system in polar coordinates'
@@ -958,6 +958,17 @@ refused 1 'no parameter "breaks"' run ./wall.system breaks=located
 status 0 run friction.system scheme=rk4 steps=3 --measure I1_error
 grep -q "invariants are not searched: the system is not smooth" out || fail "why no invariant: $(cat out)"
 ! "$geomint" run lorenz steps=0 until=0 2>&1 | grep -q nan || fail "a step of nan"
+
+# an observable of the file may leave the numbers: it has no value, with a reason, and the run is as good as before
+printf 'coordinates: q\nmomenta: p\nH: (p^2+q^2)/2\nobserve: root = sqrt(q)\nobserve: pole = 1/(q - q)\n' >root.system
+printf 'start: q = 1, p = 0\ndt: 0.1\nuntil: 2.5\n' >>root.system
+status 0 run ./root.system --csv rows.csv
+[ "$(grep -c 'none: it has no finite value in this state' out)" = 2 ] || fail "observables without a value: $(cat out)"
+! grep -q -e '-nan' rows.csv || fail "a sign without a number: $(cat rows.csv)"
+status 0 run ./root.system --json
+grep -q '"reasons":{"root":"it has no finite value in this state","pole":"it has' out || fail "reasons: $(cat out)"
+status 0 run ./root.system until=1
+grep -q '^  root  *0.73' out || fail "a root: $(cat out)"
 # a quotient that is infinite on the way to a finite rate
 # rates and brackets stand in one line or in several
 printf 'rate: x = y, y = -mu*max(x, 0)\nparameter: mu = 2\nstart: x = 1, y = 0\n' >one.system

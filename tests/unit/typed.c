@@ -124,6 +124,22 @@ static void schemes(void **unused)
     assert_false(gm_typed_check_scheme(
         "system H=p^2/2-cos(q) q=2 p=0\n scheme='composition(strang(kinetic, foo); 1)'", &fault));
     assert_int_equal(fault.at, 9 + 28);
+    /* behind the same name in another place, and inside of other schemes */
+    assert_false(
+        gm_typed_check_scheme("system H=p^2/2-cos(q) q=2 p=0\n"
+                              "composition(strang(kinetic, potential), projected(rk4; foo); 1/2, 1/2)",
+                              &fault));
+    assert_int_equal(fault.at, 40);
+    assert_false(
+        gm_typed_check_scheme("system H=p^2/2-cos(q) q=2 p=0\n"
+                              "projected(composition(strang(kinetic, potential), lie(kinetic by rk4, foo); "
+                              "1/2, 1/2); foo)",
+                              &fault));
+    assert_non_null(strstr(fault.sentence, "a part foo (column 71)"));
+    assert_int_equal(fault.at, 70);
+    assert_false(
+        gm_typed_check("system H=p^2/2-cos(q) q=2 p=0 scheme='verlet,strang(kinetic, foo)'", &fault));
+    assert_int_equal(fault.at, 38 + 7 + 16);
     assert_true(
         gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &(const struct gm_scheme *){NULL}, &fault));
 }

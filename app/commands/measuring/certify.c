@@ -21,6 +21,7 @@
 #include "core/arena.h"
 #include "core/expression/number.h"
 #include "core/memory.h"
+#include "core/ode/ode.h"
 #include "core/schemes.h"
 #include "core/theory/certify.h"
 #include "render/files/temporary.h"
@@ -71,11 +72,11 @@ static void print_certificate(const struct gm_certificate *certificate)
         gm_theory_print(theory, "    ");
         printf("\n");
     } else if (scheme->word) {
-        printf(
-            "  theory does not apply: %s\n",
-            scheme->base
-                ? "the way back to an invariant has no coefficients"
-                : "a part is not a tableau, a splitting into T and V, or a Nystrom method, or they have more than 256 stages");
+        printf("  theory does not apply: %s\n",
+               scheme->base ? "the way back to an invariant has no coefficients"
+               : scheme->needs & GM_NEEDS_PARTS
+                   ? "it splits into parts with names, and not into T and V"
+                   : "a part has no coefficients, or they have more than 256 stages");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
@@ -287,7 +288,7 @@ struct certifying {
     const struct gm_options *options;
     struct gm_certificate *certificates; /* a place for each scheme, as there are few */
     bool *lost;                          /* true if memory was short */
-    size_t count, certified, broken;
+    size_t count, told, empty, broken;
 };
 
 static void certify(void *self, size_t index, size_t slot)
@@ -307,11 +308,12 @@ static bool tell(void *self, size_t index, size_t slot)
         return false;
     }
     show(all->options, &all->certificates[slot], NULL);
-    all->certified++;
+    all->told++;
+    all->empty += all->schemes[index]->word && !all->certificates[slot].order_problem[0];
     all->broken += all->certificates[slot].holds ? 0 : 1;
-    if (all->certified < all->count) {
+    if (all->told < all->count) {
         fflush(stdout);
-        gm_listener_hears(&gm_terminal_listener, all->schemes[index + 1]->name, all->certified, all->count);
+        gm_listener_hears(&gm_terminal_listener, all->schemes[index + 1]->name, all->told, all->count);
     }
     return true;
 }
@@ -411,7 +413,9 @@ int gm_command_certify(const struct gm_options *options)
     status = GM_EXIT_MEMORY;
     if (gm_pool_run(&pool) == all.count) {
         if (!options->json && !gm_options_take_stdout(options)) {
-            printf("%zu certified, %zu broken\n", all.certified, all.broken);
+            printf("%zu certified, %zu broken%s\n", all.told - all.empty, all.broken,
+                   all.empty ? ": nothing was measured; name a system that the scheme fits, --on SYSTEM"
+                             : "");
         }
         status = chart(options, all.certificates, all.count, all.broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
     } else if (gm_interrupted) {

@@ -12,6 +12,7 @@
 #include "core/basics.h"
 #include "core/expression/lines.h"
 #include "core/functions/functions.h"
+#include "core/ode/families/composition.h"
 #include "core/schemes.h"
 #include "core/theory/certify.h"
 
@@ -163,29 +164,28 @@ static void add_scheme(struct gm_grid *grid, const struct gm_scheme *scheme)
 }
 
 /* Adds the built-in schemes of the first one's family, or of its base's, that promise the smallest error at equal cost:
-   the smallest error constant by theory, of its order before those of other orders. It adds none if none fits. */
+   the smallest error constant by theory, of its order before those of higher orders. */
 static void add_best(struct gm_grid *grid, const struct gm_lane *lane)
 {
     enum { BEST = 3 };
     const struct gm_scheme *first = grid->lines[0].scheme, *like = first, *best[BEST] = {NULL};
     double constants[BEST] = {0};
-    while (like->base) {
-        like = like->base;
+    while (like->base || gm_scheme_is_composition(like)) {
+        like = like->base ? like->base : ((const struct gm_substeps *)like->coefficients)->at[0].scheme;
     }
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         const struct gm_scheme *same = gm_scheme_same_as(scheme, &lane->problem);
-        if (scheme->family != like->family || scheme == first || !gm_scheme_fits(scheme, &lane->problem) ||
-            (same && same->family == like->family)) {
+        if (scheme->family != like->family || scheme == first || scheme->order < first->order ||
+            !gm_scheme_fits(scheme, &lane->problem) || (same && same->family == like->family)) {
             continue;
         }
         const struct gm_theory theory = gm_scheme_theory(scheme);
         double constant = theory.known ? theory.error_constant : INFINITY;
         const struct gm_scheme *next = scheme;
         for (int k = 0; k < BEST && next; k++) {
-            const int off = abs(next->order - like->order);
-            const int than = best[k] ? abs(best[k]->order - like->order) : 0;
-            if (!best[k] || off < than || (off == than && constant < constants[k])) {
+            if (!best[k] || next->order < best[k]->order ||
+                (next->order == best[k]->order && constant < constants[k])) {
                 const struct gm_scheme *moved = best[k];
                 const double its = constants[k];
                 best[k] = next;
@@ -227,9 +227,11 @@ static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, boo
             add_scheme(grid, gm_scheme_at(i));
         }
     }
+    const size_t given = grid->count;
     if (grid->best) {
         add_best(grid, lane);
     }
+    grid->best_is_none = grid->best && grid->count == given;
 }
 
 /* The different values that the lanes have of a parameter. */

@@ -193,6 +193,10 @@ void gm_work_print(const struct gm_grid *grid)
         }
     }
     printf("%s\n", sentence_of(grid, sentence, sizeof sentence));
+    if (grid->best_is_none) {
+        printf("best adds no scheme: no other one of the family of %s has its order or a higher one\n",
+               grid->lines[0].scheme->name);
+    }
 }
 
 void gm_work_put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)

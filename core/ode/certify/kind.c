@@ -59,7 +59,7 @@ static const char *obstacle(const struct gm_problem *problem, unsigned lacking)
     const unsigned energy = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM | GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY |
                             GM_NEEDS_INSEPARABLE | GM_NEEDS_ATTRACTION;
     return gm_ode_of(problem)->forced && (lacking & energy)
-               ? "a Hamiltonian without the force: that acts here"
+               ? "a Hamiltonian on which no force acts; here the line force: adds one"
                : NULL;
 }
 
@@ -276,7 +276,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     const char *const no_constraints = "the system has no constraints";
     const char *const no_derivative = n > GM_SUBJECT_TANGENTS
                                           ? "a step is differentiated for at most 64 components"
-                                          : "the scheme is adaptive";
+                                          : "the length of a step depends on the state";
     const struct {
         enum gm_claim claim;
         bool measured;
@@ -347,15 +347,15 @@ static bool drifts(const struct quarter *first, const struct quarter *last, doub
     return rests || largest(last) > 2 * largest(first);
 }
 
-/* Judges claims by an invariant that was followed: a drift beyond ten roundings of each step refutes them, and what
+/* Judges claims by an invariant that was followed: a change beyond ten roundings of each step refutes them, and what
    could not be decided without a step is not measured. */
 static void judge(struct gm_certificate *certificate, const struct gm_subject *subject,
                   const struct gm_followed *row, const struct gm_kept *kept, unsigned claims)
 {
     const double x0 = fabs(kept->value(kept->data, subject->start, NULL)),
                  rounding = gm_round_off_of(subject, kept) / 100 * fmax(1, x0) / (x0 > 0 ? x0 : 1);
-    const bool refutes = strcmp(row->verdict, "drifts") == 0 && !gm_ode_of(&subject->problem)->rough &&
-                         row->defect > 10 * (double)row->steps * rounding;
+    const bool refutes =
+        !gm_ode_of(&subject->problem)->rough && row->defect > 10 * (double)row->steps * rounding;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *verdict = &certificate->claims[bit];
         if (!(claims >> bit & 1)) {
@@ -414,9 +414,10 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     gm_run_close(run);
 }
 
-/* Follows H, the invariants that the system names, and those that are found: I1, I2, ... */
+/* Follows H, the invariants that the system names, and those that are found: I1, I2, ..., or found1, found2, ... */
 static void follow_all(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
+    static const char *const found_words[] = {"I", "found"};
     const struct gm_ode *ode = gm_ode_of(&subject->problem);
     const struct gm_invariant energy = {ode->hamiltonian ? gm_energy
                                         : ode->poisson   ? ode->poisson->energy
@@ -435,13 +436,17 @@ static void follow_all(struct gm_certificate *certificate, const struct gm_subje
                    claims_of(subject, &subject->kept[i]));
         }
     }
-    for (int number = 1; ode->conserved && number < GM_MOST_FOLLOWED; number++) {
-        snprintf(name, sizeof name, "I%d", number);
-        if (!gm_conserved_open(&held.conserved, &subject->problem, names, 1, lacks)) {
-            return;
+    for (size_t k = 0; k < GM_COUNT(found_words); k++) {
+        for (int number = 1; ode->conserved && number < GM_MOST_FOLLOWED; number++) {
+            snprintf(name, sizeof name, "%s%d", found_words[k], number);
+            if (!gm_conserved_open(&held.conserved, &subject->problem, names, 1, lacks)) {
+                break;
+            }
+            const struct gm_kept found = {.value = value_of_held, .data = &held};
+            measure_kept(certificate, subject, &found);
+            follow(certificate, subject, name, &found, claims_of(subject, &found));
+            gm_conserved_close(&held.conserved);
         }
-        follow(certificate, subject, name, &(const struct gm_kept){.value = value_of_held, .data = &held}, 0);
-        gm_conserved_close(&held.conserved);
     }
 }
 

@@ -47,6 +47,9 @@ enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_t
     progress->evaluations += made.evaluations;
     progress->solves += made.solves;
     progress->iterations += made.iterations;
+    if (made.done == 1) { /* what another member lacks stays known */
+        return GM_OK;
+    }
     progress->unsolved = made.unsolved;
-    return made.done == 1 ? GM_OK : made.status;
+    return made.status;
 }

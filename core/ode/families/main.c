@@ -129,7 +129,7 @@ static const struct {
     {"implicit", "implicit", "const struct gm_tableau", "gm_implicit_", ""},
     {"splitting", "splitting", "static const struct gm_splitting", "", ""},
     {"corrected", "parts", "static const struct gm_parts_row", "",
-     ".parts = 2, .list = {{\"kinetic\", NULL}, {\"potential\", NULL}}, "},
+     ".parts = 2, .list = {{.name = \"kinetic\"}, {.name = \"potential\"}}, "},
     {.name = "compositions"},
     {.name = "texts"},
 };

@@ -22,6 +22,8 @@ struct naming {
     struct gm_formula *graph;
     gm_node_id node; /* in `graph` */
     char *lacks;
+    bool searched; /* for those without a name, of which there are `unnamed` */
+    size_t unnamed;
 };
 
 _Noreturn __attribute__((format(printf, 3, 4))) static void
@@ -52,9 +54,12 @@ static gm_node_id declared(const struct naming *naming, bool *trusted)
             return (gm_node_id)i;
         }
     }
-    return strcmp(naming->name, "H") == 0 && (system->kind == GM_CANONICAL || system->kind == GM_POISSON)
-               ? system->energy
-               : GM_NO_NODE;
+    if (strcmp(naming->name, "H") != 0 || (system->kind != GM_CANONICAL && system->kind != GM_POISSON)) {
+        return GM_NO_NODE;
+    }
+    /* Hamilton's equations conserve it; no long proof of that is needed at every start of a run */
+    *trusted = system->kind == GM_CANONICAL && !system->timed && !gm_ode_of(naming->problem)->forced;
+    return system->energy;
 }
 
 /* A system and its invariants; the last searches of the process are kept. */
@@ -116,21 +121,23 @@ static const struct found *found_of(const struct gm_user_data *data)
 }
 
 /* The node of number `number` among those without a name, in `graph`. */
-static gm_node_id found(struct gm_arena *arena, const struct naming *naming, size_t number)
+static gm_node_id found(struct gm_arena *arena, struct naming *naming, size_t number)
 {
     gm_node_id node = GM_NO_NODE;
     pthread_mutex_lock(&turn);
     const struct found *all = found_of(naming->data);
-    for (size_t i = 0; all && i < all->invariants.count && number > 0; i++) {
+    for (size_t i = 0; all && i < all->invariants.count; i++) {
         const struct gm_found_invariant *invariant = &all->invariants.list[i];
-        number -= !invariant->item && !invariant->energy;
-        if (number == 0) {
+        const bool unnamed = !invariant->item && !invariant->energy;
+        naming->unnamed += unnamed;
+        if (unnamed && naming->unnamed == number) {
             node = gm_formula_graft(naming->graph, &all->system->graph, invariant->node, all->system->n,
                                     naming->data->values);
         }
     }
     pthread_mutex_unlock(&turn);
-    gm_arena_need(arena, all && (number > 0 || node != GM_NO_NODE));
+    naming->searched = true;
+    gm_arena_need(arena, all && (number > naming->unnamed || node != GM_NO_NODE));
     return node;
 }
 
@@ -199,9 +206,13 @@ static void resolve(struct gm_arena *arena, void *data)
     }
     if (naming->node == GM_NO_NODE) {
         const char *names = names_of(arena, system);
-        refuse(arena, naming,
-               "an invariant %.40s (there are %.160s%s those that list --invariants finds: %s1, %s2, ...)",
-               naming->name, names, names[0] ? ", and" : "only", word, word);
+        const char *others =
+            !naming->searched
+                ? gm_arena_print(arena, "those that list --invariants finds: %s1, %s2, ...", word, word)
+            : naming->unnamed > 0 ? gm_arena_print(arena, "%s1 to %s%zu", word, word, naming->unnamed)
+                                  : "list --invariants finds no other";
+        refuse(arena, naming, "an invariant %.40s (there are %.160s%s %s)", naming->name, names,
+               names[0] ? ", and" : "only", others);
     }
     if (!trusted) {
         check_rate(arena, naming);
@@ -211,7 +222,7 @@ static void resolve(struct gm_arena *arena, void *data)
 gm_node_id gm_user_conserved(const struct gm_problem *problem, const char *name, struct gm_formula *graph,
                              char *lacks)
 {
-    struct naming naming = {problem, gm_user_data_of(problem), name, graph, GM_NO_NODE, lacks};
+    struct naming naming = {problem, gm_user_data_of(problem), name, graph, GM_NO_NODE, lacks, false, 0};
     lacks[0] = '\0';
     return gm_arena_run_once(resolve, &naming) ? naming.node : GM_NO_NODE;
 }

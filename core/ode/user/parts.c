@@ -7,6 +7,7 @@
 #include "core/ode/user/data.h"
 #include "core/ode/user/model.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,7 +150,7 @@ static bool structural_rates(struct gm_arena *arena, const struct gm_problem *pr
     memset(fields, true, n * sizeof *fields);
     for (size_t i = 0; i < n; i++) {
         gm_node_id first = i < half ? rates[i] : zero, other = gm_difference(graph, rates[i], first);
-        if (gravity) {
+        if (gravity && i >= half) { /* both have all of q' and nothing of it */
             first = motions[i];
             other = gm_difference(graph, rates[i], first);
         } else if (i >= half && (kepler || (linear && fast))) {
@@ -239,17 +240,17 @@ static const char *parts_differ(struct gm_arena *arena, const struct gm_problem 
     while (wrong < n && gm_identity_of(graph, rest[wrong], NULL, 0) != GM_NOT_ZERO) {
         wrong++;
     }
-    if (wrong == n) {
+    const gm_node_id shown = energy != GM_NO_NODE ? energy : rest[wrong < n ? wrong : 0];
+    double *at = gm_arena_keep(arena, malloc((shown + (size_t)1) * sizeof *at), free);
+    gm_formula_evaluate(graph, shown + 1, gm_user_data_of(problem)->values, at);
+    if (wrong == n && (energy == GM_NO_NODE || isfinite(at[energy]))) {
         return NULL;
     }
-    const gm_node_id shown = energy == GM_NO_NODE ? rest[wrong] : energy;
     const struct gm_naming naming = gm_system_naming(system),
                            written = {.variable = naming.variable, .data = naming.data};
     char *text = gm_formula_text(graph, shown, &written);
     const char *difference = text ? gm_arena_print(arena, "%.120s", text) : "a long formula";
     free(text);
-    double *at = gm_arena_keep(arena, malloc((shown + (size_t)1) * sizeof *at), free);
-    gm_formula_evaluate(graph, shown + 1, gm_user_data_of(problem)->values, at);
     const char *sum = sum_of(arena, names, count, " + ");
     return energy == GM_NO_NODE
                ? gm_arena_print(

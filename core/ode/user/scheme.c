@@ -295,7 +295,7 @@ static struct own *make_splitting(const struct making *making)
         }
     }
     const struct gm_parts_row corrected = {.parts = 2,
-                                           .list = {{"kinetic", NULL}, {"potential", NULL}},
+                                           .list = {{.name = "kinetic"}, {.name = "potential"}},
                                            .corrector = corrector->said ? corrector->numbers[0].value : 0};
     return of_pieces(making, &pieces, making->written->nystrom || corrector->said ? GM_NEEDS_NYSTROM : 0,
                      corrector->said ? &corrected : NULL);
@@ -306,19 +306,39 @@ static struct own *make_splitting(const struct making *making)
 static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
 static const struct gm_scheme *scheme_of(const struct making *making, struct gm_span span);
 
+/* Refuses a scheme that cannot be a part of a step, with the reason. */
+static void check_part(const struct making *making, const struct gm_scheme *scheme, size_t place)
+{
+    const struct gm_family *family = scheme->family;
+    if (gm_scheme_composes(scheme)) {
+        return;
+    }
+    fail(making, place, "%.60s cannot be a part of a step: %s", scheme->name,
+         gm_holding_of(scheme) ? "whole steps are corrected, as in projected(composition(...); H, L)"
+         : family->adaptive || family->by_tolerance ? "it is adaptive"
+                                                    : "it carries data from one step to the next");
+}
+
 /* Reads NAME, or NAME by SCHEME. */
 static struct gm_named_part read_part(const struct making *making, struct gm_span piece)
 {
-    static const char by[] = " by ";
-    const char *text = making->source->text,
-               *found = memmem(text + piece.begin, piece.end - piece.begin, by, 4);
-    struct gm_named_part part = {.by = NULL};
-    if (found) {
-        const size_t end = (size_t)(found - text);
-        part.by = scheme_of(making, gm_span_trimmed(text, (struct gm_span){end + sizeof by - 1, piece.end}));
-        piece = gm_span_trimmed(text, (struct gm_span){piece.begin, end});
+    const char *text = making->source->text;
+    const size_t name = gm_name_length(text + piece.begin, piece.end - piece.begin),
+                 end = name > 0 ? piece.begin + name : piece.end;
+    const struct gm_span given = {piece.begin, end},
+                         by = gm_span_trimmed(text, (struct gm_span){end, piece.end});
+    const bool typed = !making->source->title; /* not in a file */
+    struct gm_named_part part = {.name = words_of(making, given), .column = typed ? piece.begin + 1 : 0};
+    const bool before = strcmp(part.name, "by") == 0, written = strncmp(text + by.begin, "by ", 3) == 0;
+    if (before || (by.begin < by.end && !written)) {
+        fail(making, before ? piece.begin : by.begin,
+             "a part is a name, or NAME by SCHEME, as in A by gauss4");
     }
-    part.name = words_of(making, piece);
+    if (written && by.begin < by.end) {
+        const struct gm_span scheme = gm_span_trimmed(text, (struct gm_span){by.begin + 3, by.end});
+        part.by = scheme_of(making, scheme);
+        check_part(making, part.by, scheme.begin);
+    }
     return part;
 }
 
@@ -370,7 +390,8 @@ static void put_strang(const struct making *making, struct gm_parts_row *row, st
             struct own *adjoint = adjoint_of(making, by, place);
             adjoint->row.name = by->name;
             mirrored[k] = row->parts++;
-            row->list[mirrored[k]] = (struct gm_named_part){row->list[k].name, &adjoint->row};
+            row->list[mirrored[k]] = row->list[k];
+            row->list[mirrored[k]].by = &adjoint->row;
         }
         add_piece(pieces, (enum gm_piece)k, number_of(0.5));
     }
@@ -611,6 +632,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
     reversed->count = substeps->count;
     self->row.family = scheme->family;
     self->row.needs = scheme->needs;
+    self->row.claims = scheme->claims;
     if (scheme->exact) {
         gm_coefficients_open_adjoint(making->arena, &self->exact, scheme->exact);
     }
@@ -650,8 +672,26 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
     return self;
 }
 
+static bool are_adjoint(const struct making *making, const struct gm_scheme *a, const struct gm_scheme *b);
+
+/* The same of two lists of flows, whose parts may take steps of schemes. */
+static bool are_adjoint_parts(const struct making *making, const struct gm_parts_row *a,
+                              const struct gm_parts_row *b)
+{
+    const struct gm_splitting *of_a = &a->splitting, *of_b = &b->splitting;
+    bool mirrored = of_a->count > 0 && of_a->count == of_b->count && a->corrector == b->corrector;
+    for (int i = 0, last = of_b->count - 1; i <= last && mirrored; i++) {
+        const struct gm_named_part *here = &a->list[of_a->pieces[i].piece],
+                                   *there = &b->list[of_b->pieces[last - i].piece];
+        mirrored = strcmp(here->name, there->name) == 0 &&
+                   fabs(of_a->pieces[i].fraction - of_b->pieces[last - i].fraction) < 1e-15 &&
+                   (here->by && there->by ? are_adjoint(making, here->by, there->by) : here->by == there->by);
+    }
+    return mirrored;
+}
+
 /* Returns true if two schemes are known to be adjoint to each other: one that is its own adjoint, compositions
-   of such schemes in the opposite order, or coefficients that satisfy the conditions. */
+   of such schemes or lists of flows in the opposite order, or coefficients that satisfy the conditions. */
 static bool are_adjoint(const struct making *making, const struct gm_scheme *a, const struct gm_scheme *b)
 {
     bool mirrored = (a->claims | b->claims) & GM_SYMMETRIC && a->family == b->family &&
@@ -665,6 +705,8 @@ static bool are_adjoint(const struct making *making, const struct gm_scheme *a, 
                        are_adjoint(making, here->scheme, there->scheme);
         }
     }
+    mirrored =
+        mirrored || (parts_of(a) && parts_of(b) && are_adjoint_parts(making, parts_of(a), parts_of(b)));
     struct gm_coefficients parts[2], both;
     if (mirrored || !gm_scheme_coefficients_open(making->arena, a, &parts[0]) ||
         !gm_scheme_coefficients_open(making->arena, b, &parts[1])) {
@@ -739,10 +781,8 @@ static struct named schemes_of(const struct making *making, enum gm_scheme_word 
     for (int i = 0; i < named.count; i++) {
         gm_span_take(making->source->text, &rest, ",", &piece);
         named.at[i] = scheme_of(making, piece);
-        if (making->written->kind != GM_WRITTEN_ADJOINT && !gm_scheme_composes(named.at[i])) {
-            fail(making, piece.begin,
-                 "%.60s cannot be a part of a step: it is adaptive, or carries data between steps",
-                 named.at[i]->name);
+        if (making->written->kind != GM_WRITTEN_ADJOINT) {
+            check_part(making, named.at[i], piece.begin);
         }
     }
     return named;
@@ -964,20 +1004,24 @@ static void tell(const struct making *making, struct own *self, const char *name
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
-/* Claims of a composition that follow from its bases if theory does not apply. A symmetric scheme has an even
-   order. */
-static struct gm_theory theory_of_bases(const struct making *making, const struct gm_scheme *row,
+/* Claims of a composition that follow from its bases if theory does not apply: what a single base preserves, and what
+   follows from the order of the list. A symmetric scheme has an even order. */
+static struct gm_theory theory_of_bases(const struct making *making, struct gm_scheme *row,
                                         const struct named *bases)
 {
-    struct gm_theory theory = {.order = bases->at[0]->order, .symplectic = true};
+    const unsigned both = GM_SYMMETRIC | GM_REVERSIBLE;
+    struct gm_theory theory = {.order = bases->at[0]->order, .symmetric = are_adjoint(making, row, row)};
+    unsigned all = ~0u;
     for (int i = 0; i < bases->count; i++) {
         /* the form of constrained motions is kept by schemes for them alone */
         const unsigned changes = (bases->at[i]->needs ^ row->needs) & GM_NEEDS_CONSTRAINTS;
         theory.order = bases->at[i]->order < theory.order ? bases->at[i]->order : theory.order;
-        theory.symplectic = theory.symplectic && bases->at[i]->claims & GM_SYMPLECTIC && !changes;
+        all &= changes ? bases->at[i]->claims & ~(unsigned)GM_SYMPLECTIC : bases->at[i]->claims;
     }
-    theory.symmetric = are_adjoint(making, row, row);
+    theory.symplectic = all & GM_SYMPLECTIC;
     theory.order += theory.symmetric ? theory.order % 2 : 0;
+    all = bases->count == 1 ? all : 0;
+    row->claims = theory.symmetric && (all & both) == both ? all : all & ~both;
     return theory;
 }
 
@@ -987,23 +1031,14 @@ static struct gm_theory theory_of_parts(const struct making *making, const struc
                                         const struct named *base)
 {
     const unsigned claims = base->count > 0 ? base->at[0]->claims : 0;
-    struct gm_theory theory = {.symmetric = true, .symplectic = true};
-    const struct gm_splitting *list = &row->splitting;
-    for (int i = 0, last = list->count - 1; i <= last; i++) {
-        const struct gm_named_part *here = &row->list[list->pieces[i].piece],
-                                   *there = &row->list[list->pieces[last - i].piece];
-        theory.symplectic = theory.symplectic && (!here->by || here->by->claims & GM_SYMPLECTIC);
-        theory.symmetric =
-            theory.symmetric && strcmp(here->name, there->name) == 0 &&
-            fabs(list->pieces[i].fraction - list->pieces[last - i].fraction) < 1e-15 &&
-            (here->by && there->by ? are_adjoint(making, here->by, there->by) : here->by == there->by);
-    }
-    theory.symmetric = row->parts > 0 ? theory.symmetric : row->of_pieces != NULL;
+    struct gm_theory theory = {.symplectic = true};
+    theory.symmetric = row->parts > 0 ? are_adjoint_parts(making, row, row) : row->of_pieces != NULL;
     theory.order = base->count > 0 ? base->at[0]->order : 1 + theory.symmetric;
     bool flows = true;
     for (size_t k = 0; k < row->parts; k++) {
         const struct gm_scheme *by = row->list[k].by;
         flows = flows && !by;
+        theory.symplectic = theory.symplectic && (!by || by->claims & GM_SYMPLECTIC);
         theory.order = by && by->order < theory.order ? by->order : theory.order;
     }
     theory.symmetric = theory.symmetric || (flows && claims & GM_SYMMETRIC);
@@ -1053,9 +1088,8 @@ static void finish(const struct making *making, struct own *self, const char *na
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
     }
     row->order = written->order > 0 ? written->order : theory.order > 0 ? theory.order : 1;
-    row->claims = gm_holding_of(row)
-                      ? row->claims
-                      : (theory.symplectic ? GM_SYMPLECTIC : 0) | (theory.symmetric ? GM_SYMMETRIC : 0);
+    row->claims = (theory.known ? 0 : row->claims) | (theory.symplectic ? GM_SYMPLECTIC : 0) |
+                  (theory.symmetric ? GM_SYMMETRIC : 0);
     if (claims->said) {
         read_claims(making, claims, &row->claims);
     }

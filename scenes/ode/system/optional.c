@@ -424,7 +424,7 @@ static struct gm_curve_action loop_at(const struct gm_view *view, const double *
         found = gm_curve_add_action(state + gm_system_component(system, k, 0) * m,
                                     state + gm_system_component(system, pairs + k, 0) * m, points, &loop);
     }
-    return found ? loop : (struct gm_curve_action){NAN, NAN, NAN, NAN};
+    return found ? loop : (struct gm_curve_action){NAN, NAN, NAN, NAN, NAN};
 }
 
 double gm_ring_area(const struct gm_view *view)
@@ -457,15 +457,22 @@ static double friction_of(const struct gm_problem *problem)
     return ode->action && ode->action->friction ? *ode->action->friction : ode->forced ? NAN : 0;
 }
 
+/* Returns what waves between the points may add to the action, if they fall as those of the last two octaves do. */
+static double left_out(const struct gm_curve_action *loop)
+{
+    return loop->short_waves * fmin(1, loop->short_waves / loop->middle_waves);
+}
+
+/* An error that is not far above what the points leave out, or above round-off, is theirs and not the scheme's. */
 static double loop_action_error(const struct gm_view *view)
 {
+    const double roundoff = 1e-12, above = 10;
     const struct gm_curve_action before = loop_at(view, view->start), now = loop_at(view, view->state);
-    const double roundoff = 1e-12,
-                 wanted =
+    const double wanted =
                      resolved(&before, most) * gm_exp(-friction_of(view->problem) * (view->t - view->t0)),
                  divisor = fabs(wanted) <= roundoff * now.magnitude ? now.magnitude : wanted,
-                 error = resolved(&now, most) - wanted;
-    return error == 0 ? 0 : error / divisor;
+                 error = resolved(&now, most) - wanted, least = fmax(fabs(error), roundoff * fabs(divisor));
+    return error == 0 ? 0 : above * (left_out(&before) + left_out(&now)) > least ? NAN : error / divisor;
 }
 
 static const char *why_no_loop_error(const struct gm_view *view)

@@ -9,7 +9,6 @@
    On systems with constraints g(q) = 0, G = dg/dq, a step of the motion with the multipliers of g'' = 0,
        (q, p) = Phi_h(y_0),   q_1 = q + M^-1 G' mu,  g(q_1) = 0,   p_1 = p + G' nu,  G v_1 = 0
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), section VII.2. */
-#include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/variational/manifold.h"
@@ -84,10 +83,13 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
         return status;
     }
     memcpy(members->y, held->z, held->n * sizeof *held->z);
-    for (size_t c = 0; !held->holding->constraints && c < held->n; c++) {
-        const double moved = held->z[c] - held->next[c];
-        members->memory[GM_HELD_CORRECTION] =
-            gm_hypot(c > 0 ? members->memory[GM_HELD_CORRECTION] : 0, moved);
+    if (!held->holding->constraints) {
+        double square = 0; /* that of a length below the root of the smallest number is 0 */
+        for (size_t c = 0; c < held->n; c++) {
+            const double moved = held->z[c] - held->next[c];
+            square += moved * moved;
+        }
+        members->memory[GM_HELD_CORRECTION] = sqrt(square);
     }
     return GM_OK;
 }

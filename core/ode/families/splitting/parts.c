@@ -84,7 +84,8 @@ struct work {
     const struct gm_scheme *scheme;
     const struct gm_parts_row *row;
     struct part *parts;
-    size_t part_count, carrier; /* carrier: the part that moves the time */
+    size_t column;           /* of the part that is opened, from 1; 0: no word names it */
+    size_t counted, carrier; /* counted: the last part with a flow; carrier: the part that moves the time */
     struct flow *flows;
     size_t flow_count;
     double dt; /* of the matrices */
@@ -149,14 +150,10 @@ static const char *name_of(size_t i, const void *names)
     return ((const char *const *)names)[i];
 }
 
-/* " (column 8)": where the scheme's word names a part; "" if no word does. */
-static const char *column_of(const struct work *work, const char *name)
+/* " (column 8)": where a word names the part that is opened; "" if no word does. */
+static const char *column_of(const struct work *work)
 {
-    const char *word = work->scheme ? work->scheme->name : NULL, *at = word ? strchr(word, '(') : NULL;
-    const size_t letters = strlen(name);
-    while (at && (at = strstr(at + 1, name)) && (!strchr("( ,", at[-1]) || !strchr("), ;", at[letters]))) {
-    }
-    return at ? gm_arena_print(work->arena, " (column %zu)", (size_t)(at - word) + 1) : "";
+    return work->column > 0 ? gm_arena_print(work->arena, " (column %zu)", work->column) : "";
 }
 
 /* The names of all parts, or the nearest one, in words. */
@@ -184,8 +181,7 @@ static const gm_node_id *rates_of(struct work *work, const char *name)
         gm_arena_refuse(work->arena, "a field that is a sum of named parts");
     }
     if (!parts->rates(work->arena, work->problem, name, &work->graph, rates)) {
-        gm_arena_refuse(work->arena, "a part %.40s%s; %s", name, column_of(work, name),
-                        other_names(work, name));
+        gm_arena_refuse(work->arena, "a part %.40s%s; %s", name, column_of(work), other_names(work, name));
     }
     return rates;
 }
@@ -251,7 +247,7 @@ static void open_formula(struct work *work, struct part *part, const char *name,
             work->arena,
             "a known flow of %.40s%s, which is neither a drift, a kick, linear nor Kepler's motion of a body: "
             "write %.40s by gauss4",
-            name, column_of(work, name), name);
+            name, column_of(work), name);
     }
     const size_t slopes = part->flow.slopes.count;
     gm_tape_keep(work->arena, &part->tape,
@@ -264,6 +260,7 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
 {
     const struct gm_ode *ode = gm_ode_of(work->problem);
     const char *name = named->name;
+    work->column = named->column;
     const bool given = named->by || gm_part_is_given(work->problem, name);
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
@@ -310,7 +307,8 @@ static void list_pieces(struct work *work)
     if (volume && !ode->volume) {
         gm_arena_refuse(work->arena, "pieces whose flows are exact");
     }
-    const size_t count = work->part_count = volume ? ode->volume->pieces : ode->poisson->pieces;
+    const size_t count = volume ? ode->volume->pieces : ode->poisson->pieces;
+    work->counted = count - 1;
     work->parts = gm_arena_take(work->arena, count, sizeof *work->parts);
     work->flows =
         gm_arena_take(work->arena, steps ? 2 * count * (size_t)steps->steps : count, sizeof *work->flows);
@@ -339,7 +337,7 @@ static void open_corrector(struct work *work, size_t number)
     gm_node_id *rates = gm_arena_take(work->arena, n, sizeof *rates),
                *along = gm_arena_take(work->arena, 2 * n, sizeof *along), *masses = along + n;
     bool *momenta = gm_arena_take(work->arena, n, sizeof *momenta),
-         good = n % 2 == gm_ode_of(work->problem)->parts->timed;
+         good = n % 2 == gm_ode_of(work->problem)->parts->timed && !is_jacobi(&work->parts[0]);
     for (size_t i = 0; i < n; i++) {
         momenta[i] = i >= half && i < 2 * half;
         along[i] = rates[i] = zero;
@@ -380,8 +378,7 @@ static void list_parts(struct work *work)
     }
     work->parts = gm_arena_take(work->arena, row->parts + 1, sizeof *work->parts);
     work->flows = gm_arena_take(work->arena, GM_SPLITTING_PIECES + 2, sizeof *work->flows);
-    work->part_count = row->parts;
-    work->carrier = row->parts;
+    work->counted = work->carrier = row->parts;
     for (size_t i = 0; i < row->parts; i++) {
         size_t same = 0;
         open_part(work, &work->parts[i], &row->list[i]);
@@ -391,8 +388,10 @@ static void list_parts(struct work *work)
         names[same] = row->list[i].name;
         timed += same == count && work->parts[i].timed;
         count += same == count;
+        work->counted = work->parts[i].how != STEPS ? i : work->counted;
         work->carrier = work->carrier == row->parts && !work->parts[i].timed ? i : work->carrier;
     }
+    work->column = 0;
     const char *difference = parts ? parts->differ(work->arena, work->problem, names, count) : NULL;
     if (difference) {
         gm_arena_refuse(work->arena, "%s", difference);
@@ -524,13 +523,11 @@ static void make_matrix(struct work *work, struct flow *flow, double h)
     }
 }
 
-/* Makes a step of the part's own scheme, whose evaluations are not those of the last part. */
+/* Makes a step of the part's own scheme. */
 static bool advance_steps(const struct gm_task *task, struct work *work, const struct part *part, double h,
                           double *y, struct gm_progress *progress)
 {
-    const unsigned long evaluations = progress->evaluations;
     const enum gm_status status = gm_base_step(&part->by, task, h, y, work->moved, progress);
-    progress->evaluations = evaluations;
     memcpy(y, work->moved, work->problem->n * sizeof *y);
     return status == GM_OK;
 }
@@ -656,7 +653,7 @@ static double time_of(const struct gm_task *task, const struct work *work, size_
            task->dt;
 }
 
-/* One evaluation is a flow of the last part. */
+/* One evaluation is a flow of the last part that has one. The evaluations of the schemes of parts count, too. */
 static enum gm_status make_step(const struct gm_task *task, struct gm_progress *progress)
 {
     struct work *work = task->workspace;
@@ -672,7 +669,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_progress *
             progress->unsolved.obstacle = GM_NOT_FINITE;
             return GM_NO_CONVERGENCE;
         }
-        progress->evaluations += h != 0 && work->flows[i].part + 1 == work->part_count ? m : 0;
+        progress->evaluations += h != 0 && work->flows[i].part == work->counted ? m : 0;
     }
     return gm_is_within(task->out, task->problem->n * m, task->limit) ? GM_OK : GM_BLOW_UP;
 }
@@ -709,13 +706,24 @@ static struct gm_progress loop(const struct gm_task *task)
 
 /* ---- rows ---- */
 
-/* The body of gm_part_flow: opens the only part. */
+/* Opens the only part. */
 static void open_one(struct gm_arena *arena, void *data)
 {
     struct work *work = data;
     gm_formula_open(&work->graph);
     gm_arena_keep(arena, &work->graph, gm_formula_close);
     open_part(work, work->parts, &work->row->list[0]);
+}
+
+/* Returns how the flow of a part is computed; HOWS: it is not known. */
+static enum how how_of(const struct gm_problem *problem, const struct gm_named_part *named)
+{
+    const struct gm_parts_row row = {.list = {*named}};
+    struct part part = {.how = KICK};
+    struct work work = {.arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part};
+    const bool known = gm_arena_run(work.arena, open_one, &work);
+    gm_arena_close(work.arena);
+    return known ? part.how : HOWS;
 }
 
 const char *gm_part_flow(const struct gm_problem *problem, const char *name)
@@ -725,22 +733,33 @@ const char *gm_part_flow(const struct gm_problem *problem, const char *name)
     if (ode->split && (kinetic || strcmp(name, "potential") == 0) && !gm_part_is_given(problem, name)) {
         return kinetic ? "a drift" : words[KICK];
     }
-    const struct gm_parts_row row = {.list = {{name, NULL}}};
-    struct part part = {.how = KICK};
-    struct work work = {.arena = gm_arena_open(), .problem = problem, .row = &row, .parts = &part};
-    const bool known = gm_arena_run(work.arena, open_one, &work);
-    gm_arena_close(work.arena);
-    return known ? words[part.how] : NULL;
+    const enum how how = how_of(problem, &(struct gm_named_part){.name = name});
+    return how < HOWS ? words[how] : NULL;
+}
+
+size_t gm_parts_column(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_scheme *named = scheme->by_names ? scheme->by_names : scheme;
+    const struct gm_substeps *substeps = gm_scheme_is_composition(named) ? named->coefficients : NULL;
+    const struct gm_parts_row *row = named->family == &gm_family_parts ? named->coefficients : NULL;
+    size_t column = named->base ? gm_parts_column(named->base, problem) : 0;
+    for (int i = 0; substeps && i < substeps->count && column == 0; i++) {
+        column = gm_parts_column(substeps->at[i].scheme, problem);
+    }
+    for (size_t i = 0; row && i < row->parts && column == 0; i++) {
+        column = how_of(problem, &row->list[i]) == HOWS ? row->list[i].column : 0;
+    }
+    return column;
 }
 
 #include "core/corrected_schemes.def"
 
 static const struct gm_parts_row interaction_kepler = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                        .parts = 2,
-                                                       .list = {{"interaction", NULL}, {"kepler", NULL}}},
+                                                       .list = {{.name = "interaction"}, {.name = "kepler"}}},
                                  rest_linear = {.splitting = {3, {{0, 0.5}, {1, 1}, {0, 0.5}}},
                                                 .parts = 2,
-                                                .list = {{"rest", NULL}, {"linear", NULL}}},
+                                                .list = {{.name = "rest"}, {.name = "linear"}}},
                                  once = {.parts = 0}, twice = {.of_pieces = &gm_composition_none},
                                  suzuki4 = {.of_pieces = &gm_composition_suzuki4},
                                  kahan_li6 = {.of_pieces = &gm_composition_kahan_li6};
