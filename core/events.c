@@ -223,17 +223,18 @@ static bool crosses(double sign, double value)
     return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
-bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks)
+size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks)
 {
     const struct gm_events *events = step->problem->events;
-    bool near = false;
+    size_t first = looks;
     for (size_t i = 0; i < watched(step); i++) {
         const double sign = awaited(step, i);
-        for (size_t k = 0; k < looks && (step->ends || !events->ends[i]); k++) {
-            near = near || sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
+        for (size_t k = 0; k < first && (step->ends || !events->ends[i]); k++) {
+            const bool near = sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
+            first = near ? k : first;
         }
     }
-    return near;
+    return first;
 }
 
 /* ---- the events of a step ---- */
@@ -564,7 +565,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
     const double end = step->t + step->dt;
     find_values(&rest, end, step->end, rest.at_end);
-    if (!gm_events_are_near(step, rest.at_end, 1)) {
+    if (gm_events_near(step, rest.at_end, 1) == 1) {
         return GM_EVENTS_NONE;
     }
     if (!step->part) {

@@ -107,9 +107,9 @@ size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
 /* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
    jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns true if some event waits with no sign, or with another one than in some of `looks` looks; their values are those
-   of gm_events. */
-bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks);
+/* Returns the first of `looks` looks in which some event has not the sign that it waits with, or waits with none; `looks`:
+   none of them. Their values are those of gm_events. */
+size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks);
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at

@@ -418,38 +418,40 @@ static void pass_events(struct gm_run *run)
     }
 }
 
-/* Makes TOGETHER steps if no event happens in them: to look for events after each takes longer than a short step.
-   Returns false, with all as before, if one may. */
-static bool make_together(struct gm_run *run)
+/* Makes up to `steps` steps, at most TOGETHER, before the first in which an event may happen: to look for events after each
+   takes longer than a short step. Returns their number. */
+static int64_t make_together(struct gm_run *run, int64_t steps)
 {
     const struct gm_problem *problem = run->problem;
-    const size_t n = problem->n, m = problem->m;
+    const size_t n = problem->n, m = problem->m, count = (size_t)steps;
     double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
-    const double *memory = events_of(run, run->current);
     const unsigned long refusals = gm_memory_refusals();
-    bool good = true;
+    size_t made = 0;
     gm_run_save(run, snapshot);
-    for (size_t k = 0; good && k < TOGETHER; k++) {
-        good = make_steps(run, 1, INFINITY, false) == GM_OK;
+    while (made < count && make_steps(run, 1, INFINITY, false) == GM_OK) {
         const double *state = gm_run_state(run);
-        for (size_t c = 0; good && c < n; c++) {
-            looks[c * TOGETHER + k] = state[c * m + m - 1];
+        for (size_t c = 0; c < n; c++) {
+            looks[c * count + made] = state[c * m + m - 1];
         }
-        looks[n * TOGETHER + k] = run->t;
+        looks[n * count + made++] = run->t;
     }
-    if (good) {
-        problem->events->values(problem, gm_events_modes(problem, memory), looks, TOGETHER, values);
+    if (made == count) {
         const struct gm_event_step waiting = {.problem = problem,
                                               .memory = events_of(run, run->current),
                                               .ends = run->ends,
                                               .locates = gm_run_locates(run)};
-        good = !gm_events_are_near(&waiting, values, TOGETHER) && gm_memory_refusals() == refusals;
+        problem->events->values(problem, gm_events_modes(problem, waiting.memory), looks, count, values);
+        made = gm_events_near(&waiting, values, count);
+    } else {
+        made = 0;
     }
-    if (!good) {
+    made = gm_memory_refusals() == refusals ? made : 0;
+    if (made < count) {
         gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
+        make_steps(run, (int64_t)made, INFINITY, false);
     }
-    return good;
+    return (int64_t)made;
 }
 
 /* Returns true if the scheme's loop ends before a step that reaches a break. */
@@ -487,7 +489,8 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     if (!watched && !locates) {
         return make_steps(run, steps, until, false);
     }
-    for (int64_t alone = 0;
+    const bool repeats = gm_scheme_repeats_steps(run->scheme);
+    for (int64_t batch = TOGETHER;
          steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
         if (!watched && loop_watches(run)) {
             const int64_t whole = run->steps;
@@ -496,14 +499,15 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
             if (steps == 0 || run->status != GM_OK) {
                 break;
             }
-            alone = TOGETHER; /* the next is looked at */
+        } else if (repeats && batch > 1 && steps >= batch) {
+            const int64_t made = make_together(run, batch);
+            steps -= made;
+            if (made == batch) {
+                batch = 2 * batch < TOGETHER ? 2 * batch : TOGETHER;
+                continue;
+            }
+            batch = made;
         }
-        const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
-        if (together && make_together(run)) {
-            steps -= TOGETHER;
-            continue;
-        }
-        alone = together ? TOGETHER : alone;
         const int64_t before = run->steps;
         if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
             pass_events(run);
@@ -511,7 +515,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
             break;
         }
         steps--;
-        alone -= alone > 0;
+        batch = batch < 2 ? 2 : batch;
     }
     return run->status;
 }

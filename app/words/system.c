@@ -14,6 +14,7 @@
 #include "app/base/interrupt.h"
 #include "app/words/words.h"
 #include "core/expression/lines.h"
+#include "core/expression/number.h"
 #include "core/flow/room.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
@@ -158,6 +159,7 @@ struct making {
     struct gm_system_value *values;
     size_t value_count;
     bool elsewhere; /* a field, with schemes that move its mesh or are for its equation alone */
+    double until;   /* of the words; 0: none */
     double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
@@ -219,6 +221,17 @@ static bool choose_grid(struct making *making)
                      making->first.kind == GM_FIELD ? "move their mesh" : "are for this equation alone");
 }
 
+/* Returns the end that the words give, which stiffness depends on; 0 if they give none, or a list. */
+static double end_of(const struct gm_typed_file *written)
+{
+    double until = 0;
+    for (int i = 1; i < written->count; i++) {
+        const char *typed = gm_word_after(written->words[i], "until");
+        until = !typed || gm_number_parse(typed, &until) ? until : 0;
+    }
+    return until;
+}
+
 /* The offset of the line that a sentence "word: fault" is about: a line with the next word of the
    sentence, or the value of the first one; 0: no line. */
 static size_t line_of(const struct gm_typed_file *written, const char *sentence)
@@ -275,7 +288,9 @@ static bool open_system(struct making *making)
                                                                   .words = words,
                                                                   .path = inside ? NULL : written->path,
                                                                   .typed = !written->path,
-                                                                  .elsewhere = making->elsewhere},
+
+                                                                  .elsewhere = making->elsewhere,
+                                                                  .until = making->until},
                                        &opening);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
@@ -336,13 +351,15 @@ static void make(struct making *making)
         return;
     } else {
         const bool chosen = choose_grid(making) && choose_words(making);
+        making->until = end_of(written);
         find_largest(making);
         if (!chosen) {
             return;
         }
     }
     char *words = gm_arguments_join("", &made->words);
-    if (!words || asprintf(&made->key, "%d %s\n%s", making->elsewhere, words, written->text) < 0) {
+    if (!words ||
+        asprintf(&made->key, "%d %g %s\n%s", making->elsewhere, making->until, words, written->text) < 0) {
         made->key = NULL;
     }
     free(words);
