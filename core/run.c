@@ -38,10 +38,15 @@ static size_t memory_count(const struct gm_run *run)
     return family->memory ? family->memory(run->problem, run->scheme) : 0;
 }
 
+/* The numbers of a state with its carry and the scheme's memory. */
+static size_t whole_count(const struct gm_run *run)
+{
+    return state_count(run) + carry_count(run) + memory_count(run);
+}
+
 static size_t half_size(const struct gm_run *run)
 {
-    const size_t count =
-        state_count(run) + carry_count(run) + memory_count(run) + gm_events_memory(run->problem);
+    const size_t count = whole_count(run) + gm_events_memory(run->problem);
     return (count * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
@@ -62,7 +67,7 @@ const double *gm_run_memory(const struct gm_run *run)
 
 static double *events_of(const struct gm_run *run, int which)
 {
-    return half(run, which) + state_count(run) + carry_count(run) + memory_count(run);
+    return half(run, which) + whole_count(run);
 }
 
 const double *gm_run_events(const struct gm_run *run)
@@ -73,7 +78,7 @@ const double *gm_run_events(const struct gm_run *run)
 bool gm_run_locates(const struct gm_run *run)
 {
     return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
-           gm_scheme_makes_parts(run->scheme);
+           gm_scheme_has_one_step(run->scheme);
 }
 
 /* Opens the workspace for the present motion. */
@@ -179,7 +184,7 @@ enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
 static bool open_events(struct gm_run *run)
 {
     const struct gm_problem *problem = run->problem;
-    const size_t step = gm_events_scratch(problem, state_count(run) + carry_count(run)),
+    const size_t step = gm_events_scratch(problem, whole_count(run)),
                  looks = TOGETHER * (problem->n + 1 + problem->events->count),
                  size = (step + looks + 1) * sizeof(double) + gm_run_snapshot_size(run);
     run->looks_back = true;
@@ -340,23 +345,33 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
 
 /* ---- events ---- */
 
-/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
-static bool make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+/* The task of a part of a step, from a state with all that belongs to it, in the run's block or of that layout. */
+static struct gm_task part_of(const struct gm_run *run, const double *from, double t, double dt, double *to)
 {
-    struct gm_run *run = data;
-    const unsigned long refusals = gm_memory_refusals();
-    if (!gm_run_motion(run)) {
-        return false;
-    }
+    const size_t count = state_count(run), memory = count + carry_count(run);
     struct gm_task task = task_of(run, run->current, run->current, 1);
     task.y = from;
     task.out = to;
-    task.carry = task.carry ? from + state_count(run) : NULL;
-    task.carry_out = task.carry ? to + state_count(run) : NULL;
+    task.carry = task.carry ? from + count : NULL;
+    task.carry_out = task.carry ? to + count : NULL;
+    task.memory = task.memory ? from + memory : NULL;
+    task.memory_out = task.memory ? to + memory : NULL;
     task.t = task.t0 = t;
     task.n = 0;
     task.dt = dt;
     task.steps_before = run->steps - 1;
+    return task;
+}
+
+/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
+static double make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+{
+    struct gm_run *run = data;
+    const unsigned long refusals = gm_memory_refusals();
+    if (!gm_run_motion(run)) {
+        return NAN;
+    }
+    const struct gm_task task = part_of(run, from, t, dt, to);
     reset_workspace(run);
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
@@ -364,57 +379,70 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
         run->status = progress.status;
         run->unsolved = progress.unsolved;
     }
-    return progress.done == 1 && gm_memory_refusals() == refusals;
+    const bool made = progress.done == 1 && gm_memory_refusals() == refusals;
+    return !made ? NAN : run->scheme->family->adaptive ? progress.t : t + dt;
 }
 
-/* Looks for events in the step that was just made. */
-static void pass_events(struct gm_run *run)
+/* gm_event_step.restart */
+static bool restart(void *data, double t, double *state)
 {
-    const size_t carried = carry_count(run);
+    struct gm_run *run = data;
+    const struct gm_task task = part_of(run, state, t, run->dt, state);
+    run->status = run->scheme->family->start ? run->scheme->family->start(&task) : GM_OK;
+    return run->status == GM_OK;
+}
+
+/* Looks for events in the step that was just made, of length dt. */
+static void pass_events(struct gm_run *run, double dt)
+{
     const int before = 1 - run->current;
+    const bool varies = run->scheme->family->adaptive;
     struct gm_event_step step = {.problem = run->problem,
-                                 .t = run->t0 + (double)(run->n - 1) * run->dt,
-                                 .dt = run->dt,
+                                 .t = varies ? run->t_behind : run->t0 + (double)(run->n - 1) * run->dt,
+                                 .dt = dt,
+                                 .end_time = run->t,
+                                 .varies = varies,
                                  .first = run->steps == 1,
                                  .ends = run->ends,
                                  .locates = gm_run_locates(run),
-                                 .size = state_count(run) + carried,
+                                 .size = whole_count(run),
                                  .state = state_count(run),
                                  .begin = half(run, before),
                                  .end = half(run, run->current),
                                  .memory = events_of(run, run->current),
                                  .scratch = run->event_scratch,
-                                 .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
+                                 .part = make_part,
+                                 .restart = restart,
                                  .motion = take_motion,
                                  .data = run,
                                  .witness = run->witness};
-    if (!step.part) {
-        step.t = run->t - run->dt;
-    }
     run->behind = 0; /* a step in parts is not repeated */
     const unsigned long refusals = gm_memory_refusals();
     enum gm_event_outcome outcome = gm_events_pass(&step);
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
+    if (step.parts) {
+        reset_workspace(run);
+    }
     if (outcome == GM_EVENTS_FAILED) {
         run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
         run->current = before;
         run->n--;
         run->steps--;
-        run->t = run->t0 + (double)run->n * run->dt;
+        run->t = step.t;
     } else if (outcome == GM_EVENTS_NONE) {
         run->behind = 1;
-    } else if (outcome != GM_EVENTS_HAPPENED) {
+    } else if (outcome == GM_EVENTS_HAPPENED) {
+        run->t = varies ? step.reached : run->t;
+    } else {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
         run->turned = step.turned;
         run->turned_at = step.turned_at;
-        if (step.part) {
-            run->t = run->t0 = step.reached;
-            run->n = 0;
-        }
+        run->t = run->t0 = step.reached;
+        run->n = 0;
     }
 }
 
@@ -424,7 +452,7 @@ static int64_t make_together(struct gm_run *run, int64_t steps)
 {
     const struct gm_problem *problem = run->problem;
     const size_t n = problem->n, m = problem->m, count = (size_t)steps;
-    double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
+    double *looks = run->event_scratch + gm_events_scratch(problem, whole_count(run)),
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
     const unsigned long refusals = gm_memory_refusals();
     size_t made = 0;
@@ -471,7 +499,7 @@ static bool step_across(struct gm_run *run)
     run->across = true;
     const bool made = make_steps(run, 1, INFINITY, false) == GM_OK;
     if (made) {
-        pass_events(run);
+        pass_events(run, run->dt);
     }
     run->across = false;
     run->status = made || run->status == GM_OUT_OF_MEMORY ? run->status : failed;
@@ -481,93 +509,10 @@ static bool step_across(struct gm_run *run)
     return made;
 }
 
-static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
-{
-    const struct gm_events *events = run->problem->events;
-    const bool watched = events && (events->changes || (run->ends && events->ends_runs)),
-               locates = gm_run_locates(run), ends = run->scheme->family->adaptive;
-    if (!watched && !locates) {
-        return make_steps(run, steps, until, false);
-    }
-    const bool repeats = gm_scheme_repeats_steps(run->scheme);
-    for (int64_t batch = TOGETHER;
-         steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
-        if (!watched && loop_watches(run)) {
-            const int64_t whole = run->steps;
-            make_steps(run, steps, until, true);
-            steps -= run->steps - whole;
-            if (steps == 0 || run->status != GM_OK) {
-                break;
-            }
-        } else if (repeats && batch > 1 && steps >= batch) {
-            const int64_t made = make_together(run, batch);
-            steps -= made;
-            if (made == batch) {
-                batch = 2 * batch < TOGETHER ? 2 * batch : TOGETHER;
-                continue;
-            }
-            batch = made;
-        }
-        const int64_t before = run->steps;
-        if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
-            pass_events(run);
-        } else if (!locates || run->status == GM_OUT_OF_MEMORY || !step_across(run)) {
-            break;
-        }
-        steps--;
-        batch = batch < 2 ? 2 : batch;
-    }
-    return run->status;
-}
-
-enum gm_status gm_run_advance(struct gm_run *run, int64_t steps)
-{
-    return advance(run, steps, INFINITY);
-}
-
-bool gm_run_repeats(const struct gm_run *run)
-{
-    return run->status == GM_OK && run->n > 0 && run->behind == 1 && gm_scheme_repeats_steps(run->scheme);
-}
-
-const double *gm_run_before(const struct gm_run *run)
-{
-    return half(run, 1 - run->current);
-}
-
-bool gm_run_part(const struct gm_run *run, double fraction, double *y)
-{
-    const double begin = run->t0 + (double)(run->n - 1) * run->dt;
-    return make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false);
-}
-
-int64_t gm_run_steps_at(const struct gm_run *run, double t)
-{
-    const double most = (double)(INT64_MAX / 4);
-    const double steps = round((t - run->t0) / run->dt);
-    return run->scheme->family->adaptive || !(steps < most) ? INT64_MAX / 4
-                                                            : run->steps - run->n + (int64_t)steps;
-}
-
-int64_t gm_run_steps_by(const struct gm_run *run, double t)
-{
-    if (run->scheme->family->adaptive) {
-        return run->steps + (run->t < t ? 1 : 0);
-    }
-    const double ahead = (t - run->t) / run->dt;
-    return run->steps + (int64_t)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
-}
-
 /* An end that is missed by round-off is reached. */
 static double reached_from(double until)
 {
     return isfinite(until) ? until - 1e-12 * fabs(until) : until;
-}
-
-bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
-{
-    const bool there = run->scheme->family->adaptive && run->t >= reached_from(until);
-    return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
 /* The last step of an adaptive scheme, from one half of the block to the other. */
@@ -590,14 +535,15 @@ static double time_beyond(void *data, double fraction)
     return last->t - last->until;
 }
 
-/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. */
-static void end_at(struct gm_run *run, double until)
+/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. Returns the dt of that
+   step. */
+static double end_at(struct gm_run *run, double until)
 {
     /* times that the scheme itself computes have its rounding errors */
     const double reach = 1e-12 * fmax(fabs(until), fabs(run->dt));
     const int64_t earlier = run->behind - 1;
     if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
-        return;
+        return run->dt;
     }
     const unsigned long refusals = gm_memory_refusals();
     int from = 1 - run->current;
@@ -630,12 +576,97 @@ static void end_at(struct gm_run *run, double until)
         run->steps--;
         run->behind = 0;
     }
+    return last.task.dt;
+}
+
+static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
+{
+    const struct gm_events *events = run->problem->events;
+    const bool watched = events && (events->changes || (run->ends && events->ends_runs)),
+               locates = gm_run_locates(run), adaptive = run->scheme->family->adaptive;
+    const double reached = reached_from(until);
+    if (!watched && !locates) {
+        return make_steps(run, steps, reached, false);
+    }
+    const bool repeats = gm_scheme_repeats_steps(run->scheme);
+    for (int64_t batch = TOGETHER;
+         steps > 0 && run->status == GM_OK && !run->stopped && !(adaptive && run->t >= reached);) {
+        if (!watched && loop_watches(run)) {
+            const int64_t whole = run->steps;
+            make_steps(run, steps, reached, true);
+            steps -= run->steps - whole;
+            if (steps == 0 || run->status != GM_OK) {
+                break;
+            }
+        } else if (repeats && batch > 1 && steps >= batch) {
+            const int64_t made = make_together(run, batch);
+            steps -= made;
+            if (made == batch) {
+                batch = 2 * batch < TOGETHER ? 2 * batch : TOGETHER;
+                continue;
+            }
+            batch = made;
+        }
+        const int64_t before = run->steps;
+        if (make_steps(run, 1, reached, false) == GM_OK && run->steps > before) {
+            pass_events(run, adaptive && run->shortens ? end_at(run, until) : run->dt);
+        } else if (!locates || run->status == GM_OUT_OF_MEMORY || !step_across(run)) {
+            break;
+        }
+        steps--;
+        batch = batch < 2 ? 2 : batch;
+    }
+    return run->status;
+}
+
+enum gm_status gm_run_advance(struct gm_run *run, int64_t steps)
+{
+    return advance(run, steps, INFINITY);
+}
+
+bool gm_run_repeats(const struct gm_run *run)
+{
+    return run->status == GM_OK && run->n > 0 && run->behind == 1 && gm_scheme_repeats_steps(run->scheme);
+}
+
+const double *gm_run_before(const struct gm_run *run)
+{
+    return half(run, 1 - run->current);
+}
+
+bool gm_run_part(const struct gm_run *run, double fraction, double *y)
+{
+    const double begin = run->t0 + (double)(run->n - 1) * run->dt;
+    return !isnan(make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false));
+}
+
+int64_t gm_run_steps_at(const struct gm_run *run, double t)
+{
+    const double most = (double)(INT64_MAX / 4);
+    const double steps = round((t - run->t0) / run->dt);
+    return run->scheme->family->adaptive || !(steps < most) ? INT64_MAX / 4
+                                                            : run->steps - run->n + (int64_t)steps;
+}
+
+int64_t gm_run_steps_by(const struct gm_run *run, double t)
+{
+    if (run->scheme->family->adaptive) {
+        return run->steps + (run->t < t ? 1 : 0);
+    }
+    const double ahead = (t - run->t) / run->dt;
+    return run->steps + (int64_t)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
+}
+
+bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
+{
+    const bool there = run->scheme->family->adaptive && run->t >= reached_from(until);
+    return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
 {
     while (gm_run_goes_on(run, steps, until)) {
-        advance(run, steps - run->steps, reached_from(until));
+        advance(run, steps - run->steps, until);
     }
     if (run->shortens && run->scheme->family->adaptive) {
         end_at(run, until);
