@@ -518,9 +518,8 @@ static double reached_from(double until)
 /* The last step of an adaptive scheme, from one half of the block to the other. */
 struct last_step {
     struct gm_run *run;
-    struct gm_task task;
-    double dt, until;
-    double t; /* of the end */
+    int from;
+    double until, t; /* t: of the end */
 };
 
 /* Makes the step with a fraction of dt; returns the time from `until` to its end, NaN if it fails. */
@@ -528,10 +527,8 @@ static double time_beyond(void *data, double fraction)
 {
     struct last_step *last = data;
     struct gm_run *run = last->run;
-    last->task.dt = fraction * last->dt;
-    reset_workspace(run);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&last->task);
-    last->t = progress.done == 1 ? progress.t : NAN;
+    last->t = make_part(run, half(run, last->from), run->t_behind, fraction * run->dt,
+                        half(run, 1 - last->from), false);
     return last->t - last->until;
 }
 
@@ -541,42 +538,35 @@ static double end_at(struct gm_run *run, double until)
 {
     /* times that the scheme itself computes have its rounding errors */
     const double reach = 1e-12 * fmax(fabs(until), fabs(run->dt));
-    const int64_t earlier = run->behind - 1;
-    if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
+    struct last_step last = {.run = run, .from = 1 - run->current, .until = until};
+    if (run->behind < 1 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
         return run->dt;
     }
     const unsigned long refusals = gm_memory_refusals();
-    int from = 1 - run->current;
-    struct last_step last = {.run = run, .dt = run->dt, .until = until};
-    if (earlier > 0) { /* the other half is more than one step behind */
-        last.task = task_of(run, from, run->current, earlier);
-        last.task.t = run->t_behind;
-        last.task.n -= run->behind;
-        last.task.steps_before -= run->behind;
-        run->t_behind = gm_scheme_loop(run->scheme, run->motion)(&last.task).t;
-        from = run->current;
+    if (run->behind > 1) { /* the other half is more than one step behind */
+        struct gm_task task = task_again(run);
+        task.steps--;
+        task.t = run->t_behind;
+        run->t_behind = gm_scheme_loop(run->scheme, run->motion)(&task).t;
+        last.from = run->current;
     }
-    last.task = task_of(run, from, 1 - from, 1);
-    last.task.t = run->t_behind;
-    last.task.n--;
-    last.task.steps_before--;
-    const double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
-    if (!(fabs(time_beyond(&last, isnan(s) ? 1 : s)) <= reach)) {
-        time_beyond(&last, 1); /* the whole step, as before */
+    double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
+    if (isnan(s) || !(fabs(time_beyond(&last, s)) <= reach)) {
+        time_beyond(&last, s = 1); /* the whole step, as before */
     }
-    run->current = 1 - from;
+    run->current = 1 - last.from;
     run->behind = 1;
     run->t = last.t;
     reset_workspace(run);
     if (gm_memory_refusals() != refusals) { /* no step of these trials is valid */
         run->status = GM_OUT_OF_MEMORY;
-        run->current = from;
+        run->current = last.from;
         run->t = run->t_behind;
         run->n--;
         run->steps--;
         run->behind = 0;
     }
-    return last.task.dt;
+    return s * run->dt;
 }
 
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
