@@ -3,6 +3,8 @@
    needs. */
 #include "core/kind.h"
 
+#include "core/events.h"
+
 static unsigned facets_of(const struct gm_problem *problem)
 {
     return problem->kind->facets ? problem->kind->facets(problem) : 0;
@@ -24,11 +26,22 @@ bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_pr
     return !needed || *workspace;
 }
 
+/* Returns why an ensemble does not fit; NULL: it may. */
+static const char *needs_one_member(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const bool changes = problem->events && problem->events->changes;
+    return problem->m == 1            ? NULL
+           : scheme->family->adaptive ? "a single member, for its time is its own"
+           : changes && !gm_scheme_has_one_step(scheme)
+               ? "a single member, for events change its memory; rk4 and gauss4 take many"
+               : NULL;
+}
+
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     return scheme->family->kind == problem->kind && (scheme->needs & ~facets_of(problem)) == 0 &&
            gm_scheme_loop(scheme, problem) && (problem->passive == 0 || scheme->family->carries_passive) &&
-           (problem->m == 1 || !scheme->family->adaptive) &&
+           !needs_one_member(scheme, problem) &&
            !(scheme->family->lacks && scheme->family->lacks(scheme, problem));
 }
 
@@ -54,8 +67,7 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
         return obstacle;
     }
     const struct gm_facet_words *words = words_of(problem->kind, lacking);
-    const char *alone =
-        scheme->family->adaptive && problem->m > 1 ? "a single member, for its time is its own" : NULL;
+    const char *alone = needs_one_member(scheme, problem);
     return words                             ? words->structure
            : alone || !scheme->family->lacks ? alone
                                              : scheme->family->lacks(scheme, problem);
