@@ -2,7 +2,6 @@
 /* The zero of a function along a step, and the events of a step one after the other. */
 #include "core/events.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -124,12 +123,6 @@ static const double AT_REST = 0.5;
 static double sign_of(double value)
 {
     return (value > 0) - (value < 0);
-}
-
-void gm_events_clear(const struct gm_problem *problem, double *memory)
-{
-    memset(memory, 0, gm_events_memory(problem) * sizeof *memory);
-    memory[history_at(problem) + LAST] = -DBL_MAX;
 }
 
 /* The sign of dg/dt ahead, of the motion with these modes. */

@@ -65,8 +65,6 @@ struct gm_event_witness {
    the mode of a break, which is that sign, or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
-/* Clears counts and jumps. */
-void gm_events_clear(const struct gm_problem *problem, double *memory);
 /* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
 /* The sum of the jumps of a quantity. */

@@ -81,10 +81,25 @@ static double *events_of(const struct gm_run *run, int which)
     return half(run, which) + whole_count(run);
 }
 
+/* Copies a member of both halves, with its carry and events, to the run of one, or its current one back. */
+static void move_member(struct gm_run *run, size_t member, bool back)
+{
+    struct gm_run *one = run->one;
+    const size_t m = run->problem->m, count = whole_count(one) + events_count(one);
+    for (int i = 0; i < (back ? 1 : 2); i++) {
+        double *all = half(run, run->current ^ i) + member, *alone = half(one, one->current ^ i);
+        for (size_t k = 0; k < count; k++) {
+            *(back ? &all[k * m] : &alone[k]) = back ? alone[k] : all[k * m];
+        }
+    }
+}
+
 const double *gm_run_events(const struct gm_run *run)
 {
-    const size_t own = gm_events_memory(run->problem);
-    return run->problem->events ? events_of(run, run->current) + events_count(run) - own : NULL;
+    if (run->one) {
+        move_member((struct gm_run *)run, run->problem->m - 1, false);
+    }
+    return run->one ? gm_run_events(run->one) : run->problem->events ? events_of(run, run->current) : NULL;
 }
 
 bool gm_run_locates(const struct gm_run *run)
@@ -129,25 +144,6 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
 {
     const double *memory = gm_run_events(run);
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
-}
-
-/* Copies a member of both halves, and its events, to the run of one or back. */
-static void move_member(struct gm_run *run, size_t member, bool back)
-{
-    struct gm_run *one = run->one;
-    const size_t n = run->problem->n, m = run->problem->m, own = gm_events_memory(run->problem);
-    double *events = events_of(run, run->current) + member * own,
-           *events_of_one = events_of(one, one->current);
-    for (int i = 0; i < (back ? 1 : 2); i++) {
-        double *all = half(run, i == 0 ? run->current : 1 - run->current),
-               *alone = half(one, i == 0 ? one->current : 1 - one->current);
-        for (size_t c = 0; c < n + carry_count(one); c++) { /* the carry follows the state in both */
-            double *from = back ? &alone[c] : &all[c * m + member],
-                   *to = back ? &all[c * m + member] : &alone[c];
-            *to = *from;
-        }
-    }
-    memcpy(back ? events : events_of_one, back ? events_of_one : events, own * sizeof *events);
 }
 
 /* Lets breaks wait in the current state; `first`: all events. */
@@ -258,13 +254,10 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
         run->single = *problem;
         run->single.m = 1;
         run->one = gm_run_open(&run->single, scheme, settings, t0, dt, y0);
-        for (size_t i = 0; run->one && i < problem->m; i++) {
-            gm_events_clear(problem, events_of(run, 0) + i * gm_events_memory(problem));
-        }
-    } else if (problem->events && open_events(run)) {
-        gm_events_clear(problem, events_of(run, 0));
     }
-    arm(run, true);
+    if (problem->events && (run->one || open_events(run))) {
+        arm(run, true);
+    }
     start(run);
     if (gm_memory_refusals() != refusals) {
         gm_run_close(run);

@@ -159,7 +159,7 @@ struct making {
     struct gm_system_value *values;
     size_t value_count;
     bool elsewhere; /* a field, with schemes that move its mesh or are for its equation alone */
-    double until;   /* of the words; 0: none */
+    double until;   /* of the words; 0: none, or a list */
     double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
@@ -211,6 +211,8 @@ static bool choose_grid(struct making *making)
     for (int i = 1; i < making->written.count; i++) {
         const char *typed = gm_word_after(making->written.words[i], "scheme");
         schemes = typed ? typed : schemes;
+        typed = gm_word_after(making->written.words[i], "until");
+        making->until = typed && !gm_number_parse(typed, &making->until) ? 0 : making->until;
     }
     size_t others;
     making->elsewhere = gm_user_field_elsewhere(&making->first, schemes, &others) > 0;
@@ -219,17 +221,6 @@ static bool choose_grid(struct making *making)
                      "some of these schemes %s, and others do not know how: a picture has one "
                      "kind of them",
                      making->first.kind == GM_FIELD ? "move their mesh" : "are for this equation alone");
-}
-
-/* Returns the end that the words give, which stiffness depends on; 0 if they give none, or a list. */
-static double end_of(const struct gm_typed_file *written)
-{
-    double until = 0;
-    for (int i = 1; i < written->count; i++) {
-        const char *typed = gm_word_after(written->words[i], "until");
-        until = !typed || gm_number_parse(typed, &until) ? until : 0;
-    }
-    return until;
 }
 
 /* The offset of the line that a sentence "word: fault" is about: a line with the next word of the
@@ -351,7 +342,6 @@ static void make(struct making *making)
         return;
     } else {
         const bool chosen = choose_grid(making) && choose_words(making);
-        making->until = end_of(written);
         find_largest(making);
         if (!chosen) {
             return;
