@@ -81,7 +81,8 @@ static double *events_of(const struct gm_run *run, int which)
     return half(run, which) + whole_count(run);
 }
 
-/* Copies a member of both halves, with its carry and events, to the run of one, or its current one back. */
+/* Copies a member of both halves, with its carry and events, to the run of one, or its current one back. Between steps that
+   run has the last member. */
 static void move_member(struct gm_run *run, size_t member, bool back)
 {
     struct gm_run *one = run->one;
@@ -96,9 +97,6 @@ static void move_member(struct gm_run *run, size_t member, bool back)
 
 const double *gm_run_events(const struct gm_run *run)
 {
-    if (run->one) {
-        move_member((struct gm_run *)run, run->problem->m - 1, false);
-    }
     return run->one ? gm_run_events(run->one) : run->problem->events ? events_of(run, run->current) : NULL;
 }
 
@@ -516,6 +514,7 @@ static void pass_events_of_members(struct gm_run *run)
         run->n--;
         run->steps--;
         run->t = run->t0 + (double)run->n * run->dt;
+        move_member(run, run->problem->m - 1, false);
     }
 }
 
@@ -776,6 +775,9 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->witness = run->witness;
         next->stopped = run->stopped;
         memcpy(events_of(next, 0), events_of(run, run->current), events_count(run) * sizeof(double));
+        if (next->one) {
+            move_member(next, run->problem->m - 1, false);
+        }
         if (gm_run_locates(next) && !gm_run_locates(run)) {
             arm(next, true); /* sides of breaks were not followed */
         }
@@ -860,6 +862,9 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     }
     then.current = 1 - run->current;
     *run = then;
+    if (run->one) {
+        move_member(run, run->problem->m - 1, false);
+    }
     reset_workspace(run);
     return true;
 }
