@@ -3,8 +3,6 @@
    needs. */
 #include "core/kind.h"
 
-#include "core/events.h"
-
 static unsigned facets_of(const struct gm_problem *problem)
 {
     return problem->kind->facets ? problem->kind->facets(problem) : 0;
@@ -26,22 +24,11 @@ bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_pr
     return !needed || *workspace;
 }
 
-/* Returns why an ensemble does not fit; NULL: it may. */
-static const char *needs_one_member(const struct gm_scheme *scheme, const struct gm_problem *problem)
-{
-    const bool changes = problem->events && problem->events->changes;
-    return problem->m == 1            ? NULL
-           : scheme->family->adaptive ? "a single member, for its time is its own"
-           : changes && !gm_scheme_has_one_step(scheme)
-               ? "a single member, for events change its memory; rk4 and gauss4 take many"
-               : NULL;
-}
-
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     return scheme->family->kind == problem->kind && (scheme->needs & ~facets_of(problem)) == 0 &&
            gm_scheme_loop(scheme, problem) && (problem->passive == 0 || scheme->family->carries_passive) &&
-           !needs_one_member(scheme, problem) &&
+           (problem->m == 1 || !scheme->family->adaptive) &&
            !(scheme->family->lacks && scheme->family->lacks(scheme, problem));
 }
 
@@ -67,7 +54,8 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
         return obstacle;
     }
     const struct gm_facet_words *words = words_of(problem->kind, lacking);
-    const char *alone = needs_one_member(scheme, problem);
+    const char *alone =
+        scheme->family->adaptive && problem->m > 1 ? "a single member, for its time is its own" : NULL;
     return words                             ? words->structure
            : alone || !scheme->family->lacks ? alone
                                              : scheme->family->lacks(scheme, problem);

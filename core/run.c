@@ -44,20 +44,9 @@ static size_t whole_count(const struct gm_run *run)
     return state_count(run) + carry_count(run) + memory_count(run);
 }
 
-/* Returns true if events change the members of an ensemble. */
-static bool changes_members(const struct gm_problem *problem)
-{
-    return problem->m > 1 && problem->events && problem->events->changes;
-}
-
-static size_t events_count(const struct gm_run *run)
-{
-    return (changes_members(run->problem) ? run->problem->m : 1) * gm_events_memory(run->problem);
-}
-
 static size_t half_size(const struct gm_run *run)
 {
-    const size_t count = whole_count(run) + events_count(run);
+    const size_t count = whole_count(run) + gm_events_memory(run->problem);
     return (count * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
@@ -81,23 +70,9 @@ static double *events_of(const struct gm_run *run, int which)
     return half(run, which) + whole_count(run);
 }
 
-/* Copies a member of both halves, with its carry and events, to the run of one, or its current one back. Between steps that
-   run has the last member. */
-static void move_member(struct gm_run *run, size_t member, bool back)
-{
-    struct gm_run *one = run->one;
-    const size_t m = run->problem->m, count = whole_count(one) + events_count(one);
-    for (int i = 0; i < (back ? 1 : 2); i++) {
-        double *all = half(run, run->current ^ i) + member, *alone = half(one, one->current ^ i);
-        for (size_t k = 0; k < count; k++) {
-            *(back ? &all[k * m] : &alone[k]) = back ? alone[k] : all[k * m];
-        }
-    }
-}
-
 const double *gm_run_events(const struct gm_run *run)
 {
-    return run->one ? gm_run_events(run->one) : run->problem->events ? events_of(run, run->current) : NULL;
+    return run->problem->events ? events_of(run, run->current) : NULL;
 }
 
 bool gm_run_locates(const struct gm_run *run)
@@ -147,13 +122,7 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
 /* Lets breaks wait in the current state; `first`: all events. */
 static void arm(struct gm_run *run, bool first)
 {
-    for (size_t i = 0; run->one && i < run->problem->m; i++) {
-        move_member(run, i, false);
-        run->one->t = run->t;
-        arm(run->one, first);
-        move_member(run, i, true);
-    }
-    if (run->problem->events && !run->one) {
+    if (run->problem->events) {
         gm_events_arm(&(struct gm_event_step){.problem = run->problem,
                                               .t = run->t,
                                               .dt = run->dt,
@@ -248,12 +217,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     *run = head;
     memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
-    if (changes_members(problem)) {
-        run->single = *problem;
-        run->single.m = 1;
-        run->one = gm_run_open(&run->single, scheme, settings, t0, dt, y0);
-    }
-    if (problem->events && (run->one || open_events(run))) {
+    if (problem->events && open_events(run)) {
         arm(run, true);
     }
     start(run);
@@ -272,7 +236,6 @@ void gm_run_close(void *data)
     }
     if (run) {
         free(run->event_scratch);
-        gm_run_close(run->one);
     }
     if (run && run->frozen) {
         run->problem->events->melt(run->frozen);
@@ -369,7 +332,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     run->t_behind = run->t;
     if (run->problem->events && !in_place) {
         memcpy(events_of(run, 1 - run->current), events_of(run, run->current),
-               events_count(run) * sizeof(double));
+               gm_events_memory(run->problem) * sizeof(double));
     }
     run->current = in_place ? run->current : 1 - run->current;
     run->behind += progress.done;
@@ -479,42 +442,6 @@ static void pass_events(struct gm_run *run, double dt)
         run->turned_at = step.turned_at;
         run->t = run->t0 = step.reached;
         run->n = 0;
-    }
-}
-
-/* The same for each member of an ensemble. One that fails, or whose events accumulate, ends the run before the step. */
-static void pass_events_of_members(struct gm_run *run)
-{
-    struct gm_run *one = run->one;
-    for (size_t i = 0; i < run->problem->m && run->status == GM_OK; i++) {
-        const bool last = i + 1 == run->problem->m;
-        const unsigned long evaluations = one->evaluations, iterations = one->iterations;
-        one->t0 = run->t0;
-        one->t = run->t;
-        one->n = run->n;
-        one->dt = run->dt;
-        one->steps = run->steps;
-        one->status = GM_OK;
-        one->ends = run->ends && last;
-        one->across = true;
-        one->witness = last ? run->witness : (struct gm_event_witness){0};
-        move_member(run, i, false);
-        pass_events(one, run->dt);
-        move_member(run, i, true);
-        run->evaluations += one->evaluations - evaluations;
-        run->iterations += one->iterations - iterations;
-        run->unsolved = one->unsolved;
-        run->turned = one->turned;
-        run->status = one->status;
-        run->stopped = one->stopped;
-    }
-    run->behind = 0;
-    if (run->status != GM_OK) {
-        run->current = 1 - run->current;
-        run->n--;
-        run->steps--;
-        run->t = run->t0 + (double)run->n * run->dt;
-        move_member(run, run->problem->m - 1, false);
     }
 }
 
@@ -650,7 +577,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
     if (!watched && !locates) {
         return make_steps(run, steps, reached, false);
     }
-    const bool repeats = gm_scheme_repeats_steps(run->scheme) && !run->one;
+    const bool repeats = gm_scheme_repeats_steps(run->scheme);
     for (int64_t batch = TOGETHER;
          steps > 0 && run->status == GM_OK && !run->stopped && !(adaptive && run->t >= reached);) {
         if (!watched && loop_watches(run)) {
@@ -671,8 +598,7 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         }
         const int64_t before = run->steps;
         if (make_steps(run, 1, reached, false) == GM_OK && run->steps > before) {
-            run->one ? pass_events_of_members(run)
-                     : pass_events(run, adaptive && run->shortens ? end_at(run, until) : run->dt);
+            pass_events(run, adaptive && run->shortens ? end_at(run, until) : run->dt);
         } else if (!locates || run->status == GM_OUT_OF_MEMORY || !step_across(run)) {
             break;
         }
@@ -774,10 +700,8 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->shortens = run->shortens;
         next->witness = run->witness;
         next->stopped = run->stopped;
-        memcpy(events_of(next, 0), events_of(run, run->current), events_count(run) * sizeof(double));
-        if (next->one) {
-            move_member(next, run->problem->m - 1, false);
-        }
+        memcpy(events_of(next, 0), events_of(run, run->current),
+               gm_events_memory(run->problem) * sizeof(double));
         if (gm_run_locates(next) && !gm_run_locates(run)) {
             arm(next, true); /* sides of breaks were not followed */
         }
@@ -847,8 +771,6 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.witness = run->witness;
     then.across = false;
     then.event_scratch = run->event_scratch;
-    then.one = run->one;
-    then.single = run->single;
     then.motion = run->motion;
     then.frozen = run->frozen;
     then.behind = run->behind = 0;
@@ -857,14 +779,11 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     double *state = half(run, 1 - run->current), *carry = state + state_count(run);
     memcpy(state, (const char *)snapshot + head_size(), run->half_size);
     if (!is_finite(state, active) || (carry_count(run) > 0 && !is_finite(carry, active)) ||
-        !is_finite(carry + carry_count(run), memory_count(run) + events_count(run))) {
+        !is_finite(carry + carry_count(run), memory_count(run) + gm_events_memory(run->problem))) {
         return false;
     }
     then.current = 1 - run->current;
     *run = then;
-    if (run->one) {
-        move_member(run, run->problem->m - 1, false);
-    }
     reset_workspace(run);
     return true;
 }

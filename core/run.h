@@ -33,13 +33,10 @@ struct gm_run {
     struct gm_event_witness witness; /* set by callers who follow events */
     double *event_scratch;           /* NULL: the problem has no events; not in snapshots */
     const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
-    bool across;  /* breaks are not located in this step, which a frozen formula does not make */
-    void *frozen; /* keeps such problems; NULL: none, or breaks are not located */
-    struct gm_run
-        *one; /* of one member, in which events change each in turn; NULL: they change no ensemble */
-    struct gm_problem single; /* its problem */
-    size_t turned;            /* with GM_SLIDING, and with GM_EVENTS_ACCUMULATE if breaks do: the break */
-    double turned_at;         /* and the value of its g */
+    bool across;      /* breaks are not located in this step, which a frozen formula does not make */
+    void *frozen;     /* keeps such problems; NULL: none, or breaks are not located */
+    size_t turned;    /* with GM_SLIDING, and with GM_EVENTS_ACCUMULATE if breaks do: the break */
+    double turned_at; /* and the value of its g */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem
@@ -54,7 +51,7 @@ const double *gm_run_state(const struct gm_run *run);
 /* The scheme's own memory, as its family lays it out; NULL if it has none. Valid until the next step. */
 const double *gm_run_memory(const struct gm_run *run);
 
-/* The memory of events of the last member (core/events.h); NULL: the problem has none. Valid until the next step. */
+/* The memory of events (core/events.h); NULL: the problem has none. Valid until the next step. */
 const double *gm_run_events(const struct gm_run *run);
 
 /* Returns true if the run locates breaks: it has one member, and steps that can be made in parts. */

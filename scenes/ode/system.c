@@ -215,6 +215,10 @@ static bool open_problem(const struct gm_system_lane *lane, double *values, stru
     }
     problem->m =
         system_scene->hook ? system_scene->hook->members : (size_t)lane->members + system_scene->centre;
+    if (problem->m > 1 && problem->events && problem->events->changes) {
+        gm_user_problem_close(problem);
+        return gm_refuse(sentence, "events change the state of one motion at a time: members=1, or a sweep");
+    }
     return true;
 }
 
