@@ -340,6 +340,9 @@ static double first_place(struct rest *rest)
             continue;
         }
         const double place = place_of(rest, i);
+        if (place == 0 && rest->t != step->t && fabs(rest->rest) < least * fabs(step->dt)) {
+            continue; /* too short to leave the surface: the next step decides */
+        }
         if (isnan(place) || !make_part(rest, place, false)) {
             return NAN;
         }
