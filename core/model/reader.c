@@ -359,7 +359,10 @@ static void replace(struct gm_reading *reading, struct gm_entry *entry, const st
         system->kind <= GM_LAGRANGIAN ? "coordinates and momenta" : "components", entry->name);
     gm_system_refuse_if(system, gm_system_is_tangent(system, entry->number), target->name.begin,
                         "%.60s is of a tangent, whose change follows from the event", entry->name);
-    item->nodes[1 + entry->number] = node;
+    gm_node_id *after = &item->nodes[1 + entry->number];
+    gm_system_refuse_if(system, *after != gm_formula_variable(&reading->system->graph, entry->number),
+                        target->name.begin, "%.60s is changed twice by this event", entry->name);
+    *after = node;
 }
 
 /* The first event of that name, or NULL. */

@@ -785,6 +785,8 @@ for scheme, near in ("logh-kahan-li8", 1e-8), ("controlled-kahan-li8", 1e-6), ("
     assert end["observables"]["events"] == 12 and abs(end["t"] - 20) < 1e-10, (scheme, end)
     assert max(abs(a - b) for a, b in zip(end["state"], exact)) < near, (scheme, end, exact)
 END
+# no order is measured where every step is exact
+"$geomint" certify dopri5 --on ball.system >out && grep -q 'order 5, measured nowhere' out || fail "dopri5 on parabolas: $(cat out)"
 # without a rebound it comes to rest, and does not fall through the ground; nor upwards, nor where a later force lifts it
 "$geomint" run ball.system r=0 scheme=gauss4 until=40 --json >out
 [ $? = 2 ] && value out status | grep -q events-accumulate || fail "a ball without a rebound: $(cat out)"
@@ -879,6 +881,7 @@ wrong 'event: y = 0' 'what happens'
 wrong 'event: 3 = r; v = 1' 'never changes'
 wrong 'event: y = 0, v; v = -v' 'a condition compares'
 wrong 'section: at bounce; y, v' 'there is no event bounce'
+wrong 'event: y = 0; v = 1, v = 2' 'v is changed twice by this event'
 wrong 'event: y = 0; y = 0' 'this event changes nothing'
 wrong 'event: y - r = 0; y = r, v = v' 'this event changes nothing'
 wrong 'event: y = 0; v = -v' 'its steps have their own length; rk4, gauss4 and dopri5 end' scheme=error-controlled-verlet
