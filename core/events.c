@@ -2,7 +2,6 @@
 /* The zero of a function along a step, and the events of a step one after the other. */
 #include "core/events.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -126,12 +125,6 @@ static double sign_of(double value)
     return (value > 0) - (value < 0);
 }
 
-void gm_events_clear(const struct gm_problem *problem, double *memory)
-{
-    memset(memory, 0, gm_events_memory(problem) * sizeof *memory);
-    memory[history_at(problem) + LAST] = -DBL_MAX;
-}
-
 /* The sign of dg/dt ahead, of the motion with these modes. */
 static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look)
 {
@@ -223,17 +216,18 @@ static bool crosses(double sign, double value)
     return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
-bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks)
+size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks)
 {
     const struct gm_events *events = step->problem->events;
-    bool near = false;
+    size_t first = looks;
     for (size_t i = 0; i < watched(step); i++) {
         const double sign = awaited(step, i);
-        for (size_t k = 0; k < looks && (step->ends || !events->ends[i]); k++) {
-            near = near || sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
+        for (size_t k = 0; k < first && (step->ends || !events->ends[i]); k++) {
+            const bool near = sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
+            first = near ? k : first;
         }
     }
-    return near;
+    return first;
 }
 
 /* ---- the events of a step ---- */
@@ -243,7 +237,8 @@ struct rest {
     struct gm_event_step *step;
     double t, rest;
     size_t event;
-    double *from, *to;                  /* states with their carries; `to`: room for a trial */
+    double *from, *to;                  /* states with all that belongs to them; `to`: room for a trial */
+    double at;                          /* the time of `to` */
     double *look, *before, *after;      /* looks */
     double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
     double *modes;                      /* of breaks before a change */
@@ -260,12 +255,27 @@ static void find_values(struct rest *rest, double t, const double *y, double *va
 /* Writes the state after a fraction of the rest to rest->to. */
 static bool make_part(struct rest *rest, double s, bool counted)
 {
-    const struct gm_event_step *step = rest->step;
+    struct gm_event_step *step = rest->step;
     if (s == 0) {
         memcpy(rest->to, rest->from, step->size * sizeof *rest->to);
+        rest->at = rest->t;
         return true;
     }
-    return step->part(step->data, rest->from, rest->t, s * rest->rest, rest->to, counted);
+    step->parts = true;
+    rest->at = step->part(step->data, rest->from, rest->t, s * rest->rest, rest->to, counted);
+    return !isnan(rest->at);
+}
+
+/* Makes all of the rest, to the step's end. */
+static bool make_rest(struct rest *rest)
+{
+    struct gm_event_step *step = rest->step;
+    step->parts = true;
+    if (isnan(step->part(step->data, rest->from, rest->t, rest->rest, step->end, true))) {
+        return false;
+    }
+    find_values(rest, step->end_time, step->end, rest->at_end);
+    return true;
 }
 
 /* The watched value of rest->event after a fraction of the rest; NaN if it cannot be made. */
@@ -275,7 +285,7 @@ static double value_after(void *data, double s)
     if (!make_part(rest, s, false)) {
         return NAN;
     }
-    find_values(rest, rest->t + s * rest->rest, rest->to, rest->values);
+    find_values(rest, rest->at, rest->to, rest->values);
     return watched_value(rest->step, rest->event, rest->values[rest->event]);
 }
 
@@ -305,7 +315,6 @@ static double place_of(struct rest *rest, size_t event)
 static bool take_sides(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
-    const double end = rest->t + rest->rest;
     bool taken = false;
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
         if (awaited(step, i) == 0 && sign_of(rest->at_end[i]) != 0) {
@@ -313,13 +322,7 @@ static bool take_sides(struct rest *rest)
             taken = true;
         }
     }
-    if (taken && !step->part(step->data, rest->from, rest->t, rest->rest, step->end, true)) {
-        return false;
-    }
-    if (taken) {
-        find_values(rest, end, step->end, rest->at_end);
-    }
-    return true;
+    return !taken || make_rest(rest);
 }
 
 /* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
@@ -337,6 +340,9 @@ static double first_place(struct rest *rest)
             continue;
         }
         const double place = place_of(rest, i);
+        if (place == 0 && rest->t != step->t && fabs(rest->rest) < least * fabs(step->dt)) {
+            continue; /* too short to leave the surface: the next step decides */
+        }
         if (isnan(place) || !make_part(rest, place, false)) {
             return NAN;
         }
@@ -344,7 +350,7 @@ static double first_place(struct rest *rest)
             signs[i] = -signs[i];
             continue;
         }
-        look_at(step->problem, rest->t + place * rest->rest, rest->to, rest->look);
+        look_at(step->problem, rest->at, rest->to, rest->look);
         const bool happens = place == 0 || events->happens(step->problem, i, rest->look);
         rest->places[i] = place;
         first = happens ? fmin(first, place) : first;
@@ -391,8 +397,9 @@ static double away(const struct gm_event_step *step, size_t event, double g)
     return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state. */
-static void change(struct rest *rest, double t, size_t event, bool changed)
+/* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state.
+   Returns false if the scheme cannot start from there. */
+static bool change(struct rest *rest, double t, size_t event, bool changed)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
@@ -411,6 +418,9 @@ static void change(struct rest *rest, double t, size_t event, bool changed)
     } else {
         events->change(problem, event, rest->before, rest->to);
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
+        if (!step->restart(step->data, t, rest->to)) {
+            return false;
+        }
         look_at(problem, t, rest->to, rest->after);
         find_g(step, rest->after, after);
         step->memory[counts_at(problem) + event]++;
@@ -440,6 +450,7 @@ static void change(struct rest *rest, double t, size_t event, bool changed)
     if (!turns) {
         book(rest);
     }
+    return true;
 }
 
 /* Returns true if the intervals between events have become too short to end. */
@@ -466,13 +477,13 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    const double together = 4e-15, begin = rest->t, t = begin + place * rest->rest;
+    const double together = 4e-15, begin = rest->t;
     bool many = false;
     size_t made = 0;
     if (!make_part(rest, place, true)) {
         return GM_EVENTS_FAILED;
     }
-    step->reached = t;
+    const double t = step->reached = rest->at;
     for (size_t i = watched(step);
          i-- > 0 && place == 0;) { /* back on g = 0 within the accuracy of the finder */
         if (rest->places[i] == 0) {
@@ -497,7 +508,9 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         if (i < first_break(step->problem) && made++ == 0) {
             many = are_too_short(step, t);
         }
-        change(rest, t, i, made > 0);
+        if (!change(rest, t, i, made > 0)) {
+            return GM_EVENTS_FAILED;
+        }
         note(step, i, rest->values[i]);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;
@@ -512,22 +525,6 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         }
     }
     return many ? GM_EVENTS_MANY : GM_EVENTS_HAPPENED;
-}
-
-/* Ends a run after a step that cannot be made in parts. */
-static enum gm_event_outcome end_whole(struct rest *rest, double end)
-{
-    struct gm_event_step *step = rest->step;
-    const struct gm_events *events = step->problem->events;
-    double *signs = step->memory;
-    bool ended = false;
-    for (size_t i = 0; i < first_break(step->problem); i++) {
-        ended = ended || (events->ends[i] && step->ends && crosses(signs[i], rest->at_end[i]) &&
-                          events->happens(step->problem, i, rest->look));
-        signs[i] = sign_of(rest->at_end[i]);
-    }
-    step->reached = end;
-    return ended ? GM_EVENTS_ENDED : GM_EVENTS_NONE;
 }
 
 static size_t aligned(size_t numbers)
@@ -562,13 +559,9 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
                         .modes = next + 3 * width + 3 * count,
                         .values = next + 3 * width + 4 * count};
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
-    const double end = step->t + step->dt;
-    find_values(&rest, end, step->end, rest.at_end);
-    if (!gm_events_are_near(step, rest.at_end, 1)) {
+    find_values(&rest, step->end_time, step->end, rest.at_end);
+    if (gm_events_near(step, rest.at_end, 1) == 1) {
         return GM_EVENTS_NONE;
-    }
-    if (!step->part) {
-        return end_whole(&rest, end);
     }
     find_values(&rest, step->t, step->begin, rest.at_begin);
     memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
@@ -582,16 +575,15 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
         if (outcome == GM_EVENTS_FAILED) {
             return outcome;
         }
-        if (outcome != GM_EVENTS_HAPPENED || place == 1) {
+        if (outcome != GM_EVENTS_HAPPENED || place == 1 || step->varies) {
             memcpy(step->end, rest.to, step->size * sizeof *rest.to);
             return outcome;
         }
-        rest.rest = end - rest.t;
-        if (!step->part(step->data, rest.from, rest.t, rest.rest, step->end, true)) {
+        rest.rest = step->end_time - rest.t;
+        if (!make_rest(&rest)) {
             return GM_EVENTS_FAILED;
         }
         find_values(&rest, rest.t, rest.from, rest.at_begin);
-        find_values(&rest, end, step->end, rest.at_end);
     }
     return outcome;
 }

@@ -65,8 +65,6 @@ struct gm_event_witness {
    the mode of a break, which is that sign, or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
-/* Clears counts and jumps. */
-void gm_events_clear(const struct gm_problem *problem, double *memory);
 /* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
 /* The sum of the jumps of a quantity. */
@@ -75,21 +73,25 @@ double gm_events_booked(const struct gm_problem *problem, const double *memory, 
 /* A step that is made in parts if events happen in it. */
 struct gm_event_step {
     const struct gm_problem *problem;
-    double t, dt;
+    double t, dt, end_time; /* parts are those of dt */
+    bool varies;            /* parts have times of their own, so the step ends at the first event */
     bool first;   /* of the run: a start on g = 0, up to round-off, does not pass it; all events are armed */
     bool ends;    /* events that end the run do so */
     bool locates; /* breaks are located */
-    size_t size, state;       /* numbers of a state with its carry, and without */
+    size_t size, state;       /* numbers of a state with its carry and the scheme's memory, and without */
     const double *begin;      /* the state before */
     double *end;              /* the state after the whole step; then the one after the events */
     double *memory, *scratch; /* scratch: gm_events_scratch */
     /* Writes the state after a part of a step, of length dt from `from` at t. `counted` if it is one that the
-       run takes. Returns false if it fails. NULL: steps cannot be made in parts. */
-    bool (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
+       run takes. Returns its time, NAN if it fails. */
+    double (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
+    /* Fills the scheme's memory of a changed state, where it is zero. Returns false if that fails. */
+    bool (*restart)(void *data, double t, double *state);
     /* Returns the motion with these modes, which is valid until the next call but one; NULL when out of memory. */
     const struct gm_problem *(*motion)(void *data, const double *modes);
     void *data;
     struct gm_event_witness witness;
+    bool parts;       /* some were made */
     double reached;   /* the time of the end */
     size_t turned;    /* the break at which it ends; SIZE_MAX: none */
     double turned_at; /* the value of its g there */
@@ -107,9 +109,9 @@ size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
 /* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
    jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns true if some event waits with no sign, or with another one than in some of `looks` looks; their values are those
-   of gm_events. */
-bool gm_events_are_near(const struct gm_event_step *step, const double *values, size_t looks);
+/* Returns the first of `looks` looks in which some event has not the sign that it waits with, or waits with none; `looks`:
+   none of them. Their values are those of gm_events. */
+size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks);
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at

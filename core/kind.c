@@ -3,8 +3,6 @@
    needs. */
 #include "core/kind.h"
 
-#include "core/events.h"
-
 static unsigned facets_of(const struct gm_problem *problem)
 {
     return problem->kind->facets ? problem->kind->facets(problem) : 0;
@@ -26,17 +24,11 @@ bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_pr
     return !needed || *workspace;
 }
 
-/* Returns true unless events change the state between steps that are not of one step. */
-static bool can_change(const struct gm_scheme *scheme, const struct gm_problem *problem)
-{
-    return !problem->events || !problem->events->changes || gm_scheme_makes_parts(scheme);
-}
-
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     return scheme->family->kind == problem->kind && (scheme->needs & ~facets_of(problem)) == 0 &&
            gm_scheme_loop(scheme, problem) && (problem->passive == 0 || scheme->family->carries_passive) &&
-           (problem->m == 1 || !scheme->family->adaptive) && can_change(scheme, problem) &&
+           (problem->m == 1 || !scheme->family->adaptive) &&
            !(scheme->family->lacks && scheme->family->lacks(scheme, problem));
 }
 
@@ -64,9 +56,6 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
     const struct gm_facet_words *words = words_of(problem->kind, lacking);
     const char *alone =
         scheme->family->adaptive && problem->m > 1 ? "a single member, for its time is its own" : NULL;
-    if (!words && !can_change(scheme, problem)) {
-        return "a motion without events (events need a scheme of one step; rk4 and gauss4 are)";
-    }
     return words                             ? words->structure
            : alone || !scheme->family->lacks ? alone
                                              : scheme->family->lacks(scheme, problem);

@@ -38,10 +38,15 @@ static size_t memory_count(const struct gm_run *run)
     return family->memory ? family->memory(run->problem, run->scheme) : 0;
 }
 
+/* The numbers of a state with its carry and the scheme's memory. */
+static size_t whole_count(const struct gm_run *run)
+{
+    return state_count(run) + carry_count(run) + memory_count(run);
+}
+
 static size_t half_size(const struct gm_run *run)
 {
-    const size_t count =
-        state_count(run) + carry_count(run) + memory_count(run) + gm_events_memory(run->problem);
+    const size_t count = whole_count(run) + gm_events_memory(run->problem);
     return (count * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
@@ -62,7 +67,7 @@ const double *gm_run_memory(const struct gm_run *run)
 
 static double *events_of(const struct gm_run *run, int which)
 {
-    return half(run, which) + state_count(run) + carry_count(run) + memory_count(run);
+    return half(run, which) + whole_count(run);
 }
 
 const double *gm_run_events(const struct gm_run *run)
@@ -73,7 +78,7 @@ const double *gm_run_events(const struct gm_run *run)
 bool gm_run_locates(const struct gm_run *run)
 {
     return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
-           gm_scheme_makes_parts(run->scheme);
+           gm_scheme_has_one_step(run->scheme);
 }
 
 /* Opens the workspace for the present motion. */
@@ -179,7 +184,7 @@ enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
 static bool open_events(struct gm_run *run)
 {
     const struct gm_problem *problem = run->problem;
-    const size_t step = gm_events_scratch(problem, state_count(run) + carry_count(run)),
+    const size_t step = gm_events_scratch(problem, whole_count(run)),
                  looks = TOGETHER * (problem->n + 1 + problem->events->count),
                  size = (step + looks + 1) * sizeof(double) + gm_run_snapshot_size(run);
     run->looks_back = true;
@@ -213,7 +218,6 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
     if (problem->events && open_events(run)) {
-        gm_events_clear(problem, events_of(run, 0));
         arm(run, true);
     }
     start(run);
@@ -340,23 +344,33 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
 
 /* ---- events ---- */
 
-/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
-static bool make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+/* The task of a part of a step, from a state with all that belongs to it, in the run's block or of that layout. */
+static struct gm_task part_of(const struct gm_run *run, const double *from, double t, double dt, double *to)
 {
-    struct gm_run *run = data;
-    const unsigned long refusals = gm_memory_refusals();
-    if (!gm_run_motion(run)) {
-        return false;
-    }
+    const size_t count = state_count(run), memory = count + carry_count(run);
     struct gm_task task = task_of(run, run->current, run->current, 1);
     task.y = from;
     task.out = to;
-    task.carry = task.carry ? from + state_count(run) : NULL;
-    task.carry_out = task.carry ? to + state_count(run) : NULL;
+    task.carry = task.carry ? from + count : NULL;
+    task.carry_out = task.carry ? to + count : NULL;
+    task.memory = task.memory ? from + memory : NULL;
+    task.memory_out = task.memory ? to + memory : NULL;
     task.t = task.t0 = t;
     task.n = 0;
     task.dt = dt;
     task.steps_before = run->steps - 1;
+    return task;
+}
+
+/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
+static double make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+{
+    struct gm_run *run = data;
+    const unsigned long refusals = gm_memory_refusals();
+    if (!gm_run_motion(run)) {
+        return NAN;
+    }
+    const struct gm_task task = part_of(run, from, t, dt, to);
     reset_workspace(run);
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
@@ -364,92 +378,107 @@ static bool make_part(void *data, const double *from, double t, double dt, doubl
         run->status = progress.status;
         run->unsolved = progress.unsolved;
     }
-    return progress.done == 1 && gm_memory_refusals() == refusals;
+    const bool made = progress.done == 1 && gm_memory_refusals() == refusals;
+    return !made ? NAN : run->scheme->family->adaptive ? progress.t : t + dt;
 }
 
-/* Looks for events in the step that was just made. */
-static void pass_events(struct gm_run *run)
+/* gm_event_step.restart */
+static bool restart(void *data, double t, double *state)
 {
-    const size_t carried = carry_count(run);
+    struct gm_run *run = data;
+    const struct gm_task task = part_of(run, state, t, run->dt, state);
+    run->status = run->scheme->family->start ? run->scheme->family->start(&task) : GM_OK;
+    return run->status == GM_OK;
+}
+
+/* Looks for events in the step that was just made, of length dt. */
+static void pass_events(struct gm_run *run, double dt)
+{
     const int before = 1 - run->current;
+    const bool varies = run->scheme->family->adaptive;
     struct gm_event_step step = {.problem = run->problem,
-                                 .t = run->t0 + (double)(run->n - 1) * run->dt,
-                                 .dt = run->dt,
+                                 .t = varies ? run->t_behind : run->t0 + (double)(run->n - 1) * run->dt,
+                                 .dt = dt,
+                                 .end_time = run->t,
+                                 .varies = varies,
                                  .first = run->steps == 1,
                                  .ends = run->ends,
                                  .locates = gm_run_locates(run),
-                                 .size = state_count(run) + carried,
+                                 .size = whole_count(run),
                                  .state = state_count(run),
                                  .begin = half(run, before),
                                  .end = half(run, run->current),
                                  .memory = events_of(run, run->current),
                                  .scratch = run->event_scratch,
-                                 .part = gm_scheme_makes_parts(run->scheme) ? make_part : NULL,
+                                 .part = make_part,
+                                 .restart = restart,
                                  .motion = take_motion,
                                  .data = run,
                                  .witness = run->witness};
-    if (!step.part) {
-        step.t = run->t - run->dt;
-    }
     run->behind = 0; /* a step in parts is not repeated */
     const unsigned long refusals = gm_memory_refusals();
     enum gm_event_outcome outcome = gm_events_pass(&step);
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
+    if (step.parts) {
+        reset_workspace(run);
+    }
     if (outcome == GM_EVENTS_FAILED) {
         run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
         run->current = before;
         run->n--;
         run->steps--;
-        run->t = run->t0 + (double)run->n * run->dt;
+        run->t = step.t;
     } else if (outcome == GM_EVENTS_NONE) {
         run->behind = 1;
-    } else if (outcome != GM_EVENTS_HAPPENED) {
+    } else if (outcome == GM_EVENTS_HAPPENED) {
+        run->t = varies ? step.reached : run->t;
+    } else {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
         run->turned = step.turned;
         run->turned_at = step.turned_at;
-        if (step.part) {
-            run->t = run->t0 = step.reached;
-            run->n = 0;
-        }
+        run->t = run->t0 = step.reached;
+        run->n = 0;
     }
 }
 
-/* Makes TOGETHER steps if no event happens in them: to look for events after each takes longer than a short step.
-   Returns false, with all as before, if one may. */
-static bool make_together(struct gm_run *run)
+/* Makes up to `steps` steps, at most TOGETHER, before the first in which an event may happen: to look for events after each
+   takes longer than a short step. Returns their number. */
+static int64_t make_together(struct gm_run *run, int64_t steps)
 {
     const struct gm_problem *problem = run->problem;
-    const size_t n = problem->n, m = problem->m;
-    double *looks = run->event_scratch + gm_events_scratch(problem, state_count(run) + carry_count(run)),
+    const size_t n = problem->n, m = problem->m, count = (size_t)steps;
+    double *looks = run->event_scratch + gm_events_scratch(problem, whole_count(run)),
            *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
-    const double *memory = events_of(run, run->current);
     const unsigned long refusals = gm_memory_refusals();
-    bool good = true;
+    size_t made = 0;
     gm_run_save(run, snapshot);
-    for (size_t k = 0; good && k < TOGETHER; k++) {
-        good = make_steps(run, 1, INFINITY, false) == GM_OK;
+    while (made < count && make_steps(run, 1, INFINITY, false) == GM_OK) {
         const double *state = gm_run_state(run);
-        for (size_t c = 0; good && c < n; c++) {
-            looks[c * TOGETHER + k] = state[c * m + m - 1];
+        for (size_t c = 0; c < n; c++) {
+            looks[c * count + made] = state[c * m + m - 1];
         }
-        looks[n * TOGETHER + k] = run->t;
+        looks[n * count + made++] = run->t;
     }
-    if (good) {
-        problem->events->values(problem, gm_events_modes(problem, memory), looks, TOGETHER, values);
+    if (made == count) {
         const struct gm_event_step waiting = {.problem = problem,
                                               .memory = events_of(run, run->current),
                                               .ends = run->ends,
                                               .locates = gm_run_locates(run)};
-        good = !gm_events_are_near(&waiting, values, TOGETHER) && gm_memory_refusals() == refusals;
+        problem->events->values(problem, gm_events_modes(problem, waiting.memory), looks, count, values);
+        made = gm_events_near(&waiting, values, count);
+    } else {
+        made = 0;
     }
-    if (!good) {
+    made = gm_memory_refusals() == refusals ? made : 0;
+    if (made < count) {
         gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
+        make_steps(run, (int64_t)made, INFINITY, false);
     }
-    return good;
+    return (int64_t)made;
 }
 
 /* Returns true if the scheme's loop ends before a step that reaches a break. */
@@ -469,7 +498,7 @@ static bool step_across(struct gm_run *run)
     run->across = true;
     const bool made = make_steps(run, 1, INFINITY, false) == GM_OK;
     if (made) {
-        pass_events(run);
+        pass_events(run, run->dt);
     }
     run->across = false;
     run->status = made || run->status == GM_OUT_OF_MEMORY ? run->status : failed;
@@ -479,39 +508,102 @@ static bool step_across(struct gm_run *run)
     return made;
 }
 
+/* An end that is missed by round-off is reached. */
+static double reached_from(double until)
+{
+    return isfinite(until) ? until - 1e-12 * fabs(until) : until;
+}
+
+/* The last step of an adaptive scheme, from one half of the block to the other. */
+struct last_step {
+    struct gm_run *run;
+    int from;
+    double until, t; /* t: of the end */
+};
+
+/* Makes the step with a fraction of dt; returns the time from `until` to its end, NaN if it fails. */
+static double time_beyond(void *data, double fraction)
+{
+    struct last_step *last = data;
+    struct gm_run *run = last->run;
+    last->t = make_part(run, half(run, last->from), run->t_behind, fraction * run->dt,
+                        half(run, 1 - last->from), false);
+    return last->t - last->until;
+}
+
+/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. Returns the dt of that
+   step. */
+static double end_at(struct gm_run *run, double until)
+{
+    /* times that the scheme itself computes have its rounding errors */
+    const double reach = 1e-12 * fmax(fabs(until), fabs(run->dt));
+    struct last_step last = {.run = run, .from = 1 - run->current, .until = until};
+    if (run->behind < 1 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
+        return run->dt;
+    }
+    const unsigned long refusals = gm_memory_refusals();
+    if (run->behind > 1) { /* the other half is more than one step behind */
+        struct gm_task task = task_again(run);
+        task.steps--;
+        task.t = run->t_behind;
+        run->t_behind = gm_scheme_loop(run->scheme, run->motion)(&task).t;
+        last.from = run->current;
+    }
+    double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
+    if (isnan(s) || !(fabs(time_beyond(&last, s)) <= reach)) {
+        time_beyond(&last, s = 1); /* the whole step, as before */
+    }
+    run->current = 1 - last.from;
+    run->behind = 1;
+    run->t = last.t;
+    reset_workspace(run);
+    if (gm_memory_refusals() != refusals) { /* no step of these trials is valid */
+        run->status = GM_OUT_OF_MEMORY;
+        run->current = last.from;
+        run->t = run->t_behind;
+        run->n--;
+        run->steps--;
+        run->behind = 0;
+    }
+    return s * run->dt;
+}
+
 static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
 {
     const struct gm_events *events = run->problem->events;
     const bool watched = events && (events->changes || (run->ends && events->ends_runs)),
-               locates = gm_run_locates(run), ends = run->scheme->family->adaptive;
+               locates = gm_run_locates(run), adaptive = run->scheme->family->adaptive;
+    const double reached = reached_from(until);
     if (!watched && !locates) {
-        return make_steps(run, steps, until, false);
+        return make_steps(run, steps, reached, false);
     }
-    for (int64_t alone = 0;
-         steps > 0 && run->status == GM_OK && !run->stopped && !(ends && run->t >= until);) {
+    const bool repeats = gm_scheme_repeats_steps(run->scheme);
+    for (int64_t batch = TOGETHER;
+         steps > 0 && run->status == GM_OK && !run->stopped && !(adaptive && run->t >= reached);) {
         if (!watched && loop_watches(run)) {
             const int64_t whole = run->steps;
-            make_steps(run, steps, until, true);
+            make_steps(run, steps, reached, true);
             steps -= run->steps - whole;
             if (steps == 0 || run->status != GM_OK) {
                 break;
             }
-            alone = TOGETHER; /* the next is looked at */
+        } else if (repeats && batch > 1 && steps >= batch) {
+            const int64_t made = make_together(run, batch);
+            steps -= made;
+            if (made == batch) {
+                batch = 2 * batch < TOGETHER ? 2 * batch : TOGETHER;
+                continue;
+            }
+            batch = made;
         }
-        const bool together = alone == 0 && steps >= TOGETHER && gm_scheme_repeats_steps(run->scheme);
-        if (together && make_together(run)) {
-            steps -= TOGETHER;
-            continue;
-        }
-        alone = together ? TOGETHER : alone;
         const int64_t before = run->steps;
-        if (make_steps(run, 1, until, false) == GM_OK && run->steps > before) {
-            pass_events(run);
+        if (make_steps(run, 1, reached, false) == GM_OK && run->steps > before) {
+            pass_events(run, adaptive && run->shortens ? end_at(run, until) : run->dt);
         } else if (!locates || run->status == GM_OUT_OF_MEMORY || !step_across(run)) {
             break;
         }
         steps--;
-        alone -= alone > 0;
+        batch = batch < 2 ? 2 : batch;
     }
     return run->status;
 }
@@ -534,7 +626,7 @@ const double *gm_run_before(const struct gm_run *run)
 bool gm_run_part(const struct gm_run *run, double fraction, double *y)
 {
     const double begin = run->t0 + (double)(run->n - 1) * run->dt;
-    return make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false);
+    return !isnan(make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false));
 }
 
 int64_t gm_run_steps_at(const struct gm_run *run, double t)
@@ -554,84 +646,16 @@ int64_t gm_run_steps_by(const struct gm_run *run, double t)
     return run->steps + (int64_t)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
 }
 
-/* An end that is missed by round-off is reached. */
-static double reached_from(double until)
-{
-    return isfinite(until) ? until - 1e-12 * fabs(until) : until;
-}
-
 bool gm_run_goes_on(const struct gm_run *run, int64_t steps, double until)
 {
     const bool there = run->scheme->family->adaptive && run->t >= reached_from(until);
     return run->status == GM_OK && !run->stopped && run->steps < steps && !there;
 }
 
-/* The last step of an adaptive scheme, from one half of the block to the other. */
-struct last_step {
-    struct gm_run *run;
-    struct gm_task task;
-    double dt, until;
-    double t; /* of the end */
-};
-
-/* Makes the step with a fraction of dt; returns the time from `until` to its end, NaN if it fails. */
-static double time_beyond(void *data, double fraction)
-{
-    struct last_step *last = data;
-    struct gm_run *run = last->run;
-    last->task.dt = fraction * last->dt;
-    reset_workspace(run);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&last->task);
-    last->t = progress.done == 1 ? progress.t : NAN;
-    return last->t - last->until;
-}
-
-/* Ends a run at `until`, which its last step has passed, if that step becomes shorter with dt. */
-static void end_at(struct gm_run *run, double until)
-{
-    /* times that the scheme itself computes have its rounding errors */
-    const double reach = 1e-12 * fmax(fabs(until), fabs(run->dt));
-    const int64_t earlier = run->behind - 1;
-    if (earlier < 0 || run->problem->m > 1 || run->status != GM_OK || !(run->t > until + reach)) {
-        return;
-    }
-    const unsigned long refusals = gm_memory_refusals();
-    int from = 1 - run->current;
-    struct last_step last = {.run = run, .dt = run->dt, .until = until};
-    if (earlier > 0) { /* the other half is more than one step behind */
-        last.task = task_of(run, from, run->current, earlier);
-        last.task.t = run->t_behind;
-        last.task.n -= run->behind;
-        last.task.steps_before -= run->behind;
-        run->t_behind = gm_scheme_loop(run->scheme, run->motion)(&last.task).t;
-        from = run->current;
-    }
-    last.task = task_of(run, from, 1 - from, 1);
-    last.task.t = run->t_behind;
-    last.task.n--;
-    last.task.steps_before--;
-    const double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
-    if (!(fabs(time_beyond(&last, isnan(s) ? 1 : s)) <= reach)) {
-        time_beyond(&last, 1); /* the whole step, as before */
-    }
-    run->current = 1 - from;
-    run->behind = 1;
-    run->t = last.t;
-    reset_workspace(run);
-    if (gm_memory_refusals() != refusals) { /* no step of these trials is valid */
-        run->status = GM_OUT_OF_MEMORY;
-        run->current = from;
-        run->t = run->t_behind;
-        run->n--;
-        run->steps--;
-        run->behind = 0;
-    }
-}
-
 enum gm_status gm_run_to(struct gm_run *run, int64_t steps, double until)
 {
     while (gm_run_goes_on(run, steps, until)) {
-        advance(run, steps - run->steps, reached_from(until));
+        advance(run, steps - run->steps, until);
     }
     if (run->shortens && run->scheme->family->adaptive) {
         end_at(run, until);

@@ -64,8 +64,8 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count);
 
 /* Makes up to `steps` steps. After a failure the run stays at its last good step, run->status is the
    reason, and further calls do nothing. GM_OUT_OF_MEMORY leaves the state as before the call. Where events happen
-   the step is made in parts; one that ends the run sets run->stopped, and begins a new segment there, if the
-   scheme can make parts of steps, else after the step. */
+   the step is made in parts, of an adaptive scheme up to the first; one that ends the run sets run->stopped, and begins a
+   new segment there. */
 enum gm_status gm_run_advance(struct gm_run *run, int64_t steps);
 
 /* Returns true if the last step can be repeated with another length: gm_run_advance was last called for

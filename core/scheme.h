@@ -156,15 +156,15 @@ static inline bool gm_scheme_has_coefficients(const struct gm_scheme *scheme)
     return scheme->exact || scheme->family->coefficients_open;
 }
 
-/* Returns true if a part of a step follows from the state alone; and if a repeated step is the same to the bit. */
-static inline bool gm_scheme_makes_parts(const struct gm_scheme *scheme)
+/* Returns true if steps of fixed length follow from the state alone; and if a repeated step is the same to the bit. */
+static inline bool gm_scheme_has_one_step(const struct gm_scheme *scheme)
 {
     const struct gm_family *family = scheme->family;
     return !family->adaptive && !family->memory && !family->by_tolerance && !family->not_resumable;
 }
 static inline bool gm_scheme_repeats_steps(const struct gm_scheme *scheme)
 {
-    return gm_scheme_makes_parts(scheme) && !scheme->family->workspace_reset;
+    return gm_scheme_has_one_step(scheme) && !scheme->family->workspace_reset;
 }
 
 /* Returns true if a scheme has this parameter, a row of gm_settings_parameters. */

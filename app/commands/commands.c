@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/output/say.h"
 #include "app/words/drive.h"
 #include "app/words/system.h"
 #include "core/arena.h"
@@ -81,6 +82,16 @@ struct gm_request *gm_command_parse(const struct gm_options *options, int count,
         gm_command_end(options, gm_request_refusal(request), "%s", message);
     }
     return request;
+}
+
+void gm_command_note(const struct gm_lane *lane, char *last)
+{
+    char note[GM_MESSAGE];
+    gm_lane_note(lane, note);
+    if (note[0] && strcmp(note, last) != 0) {
+        gm_complain("%s", note);
+    }
+    snprintf(last, GM_MESSAGE, "%s", note);
 }
 
 void gm_command_confirm(const struct gm_options *options, const struct gm_request *request)

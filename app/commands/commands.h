@@ -112,6 +112,9 @@ extern const double gm_many_steps;
 /* Reports the number of steps and their time, and ends the command unless the user agrees to the run. */
 void gm_command_confirm(const struct gm_options *options, const struct gm_request *request);
 
+/* Prints a lane's note, unless it is `last`, that of the lane before (GM_MESSAGE bytes, at first ""). */
+void gm_command_note(const struct gm_lane *lane, char *last);
+
 /* "3.2 years" */
 void gm_put_duration(double seconds, char *text, size_t size);
 

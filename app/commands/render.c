@@ -485,9 +485,9 @@ static int render(struct gm_request *request, const struct gm_options *options, 
     gm_arena_refuse_if(options->arena, !work->schedule.still && options->format != GM_FORMAT_PNG,
                        "--format %s is for one picture: frames are PNG", gm_format_name(options->format));
     open_lanes(work);
-    gm_lane_note(work->lanes[0], message);
-    if (message[0]) {
-        gm_complain("%s", message);
+    message[0] = '\0';
+    for (size_t i = 0; i < request->count; i++) {
+        gm_command_note(work->lanes[i], message);
     }
     return (work->schedule.still ? paint_still : paint_all)(work);
 }

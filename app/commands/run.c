@@ -36,6 +36,7 @@ struct outputs {
     struct gm_tracks *tracks;
     /* true if the last checkpoint, the profiles or the tracks could not be written, which was reported */
     bool unkept, unprofiled, untracked;
+    char note[GM_MESSAGE]; /* of the lane before */
 };
 
 struct outcome {
@@ -827,7 +828,7 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
 /* Opens and runs lane `index` and reports its result; returns the exit status. */
 static int make_lane(struct outputs *outputs, const struct gm_request *request, size_t index)
 {
-    char message[GM_MESSAGE], note[GM_MESSAGE] = "";
+    char message[GM_MESSAGE];
     const struct gm_options *options = outputs->options;
     const size_t observables = outputs->chosen.count;
     struct gm_lane *lane = gm_request_open_lane(request, index, message);
@@ -848,11 +849,8 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
         lane->unfollowed = !outputs->tracks && !options->checkpoint && !has_portrait(lane) &&
                            gm_chosen_are_of_the_end(&outputs->chosen, request->scene);
     }
-    if (lane && index == 0) {
-        gm_lane_note(lane, note);
-    }
-    if (note[0]) {
-        gm_complain("%s", note);
+    if (lane) {
+        gm_command_note(lane, outputs->note);
     }
     outcome.maxima = ready && options->maximum ? outcome.values + observables : NULL;
     for (size_t k = 0; outcome.maxima && k < observables; k++) {

@@ -14,6 +14,7 @@
 #include "app/base/interrupt.h"
 #include "app/words/words.h"
 #include "core/expression/lines.h"
+#include "core/expression/number.h"
 #include "core/flow/room.h"
 #include "core/memory.h"
 #include "core/model/equations.h"
@@ -158,6 +159,7 @@ struct making {
     struct gm_system_value *values;
     size_t value_count;
     bool elsewhere; /* a field, with schemes that move its mesh or are for its equation alone */
+    double until;   /* of the words; 0: none, or a list */
     double largest; /* the largest length of a list or a sum; 0: none */
     size_t largest_place;
     char largest_name[64];
@@ -209,6 +211,8 @@ static bool choose_grid(struct making *making)
     for (int i = 1; i < making->written.count; i++) {
         const char *typed = gm_word_after(making->written.words[i], "scheme");
         schemes = typed ? typed : schemes;
+        typed = gm_word_after(making->written.words[i], "until");
+        making->until = typed && !gm_number_parse(typed, &making->until) ? 0 : making->until;
     }
     size_t others;
     making->elsewhere = gm_user_field_elsewhere(&making->first, schemes, &others) > 0;
@@ -275,7 +279,9 @@ static bool open_system(struct making *making)
                                                                   .words = words,
                                                                   .path = inside ? NULL : written->path,
                                                                   .typed = !written->path,
-                                                                  .elsewhere = making->elsewhere},
+
+                                                                  .elsewhere = making->elsewhere,
+                                                                  .until = making->until},
                                        &opening);
     if (!made->scene && fault.sentence[0]) {
         return refuse_text(making, &fault);
@@ -342,7 +348,8 @@ static void make(struct making *making)
         }
     }
     char *words = gm_arguments_join("", &made->words);
-    if (!words || asprintf(&made->key, "%d %s\n%s", making->elsewhere, words, written->text) < 0) {
+    if (!words ||
+        asprintf(&made->key, "%d %g %s\n%s", making->elsewhere, making->until, words, written->text) < 0) {
         made->key = NULL;
     }
     free(words);

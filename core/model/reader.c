@@ -326,6 +326,12 @@ static void read_optional(struct gm_reading *reading, const struct gm_read_line 
                         "a statement was expected: figure: NAME; scheme=rk4; what it shows");
 }
 
+static gm_node_id difference(struct gm_formula *graph, gm_node_id left, gm_node_id right)
+{
+    return gm_is_constant(graph, right, 0) ? left
+                                           : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, left, right);
+}
+
 /* Adds g - h of g = h, where an event happens. */
 static void add_surface(struct gm_reading *reading, struct gm_system_item *item, struct gm_span surface)
 {
@@ -335,10 +341,7 @@ static void add_surface(struct gm_reading *reading, struct gm_system_item *item,
     const gm_node_id left = gm_reading_formula(reading, gm_reading_between(reading, surface.begin, equals)),
                      right =
                          gm_reading_formula(reading, gm_reading_between(reading, equals + 1, surface.end));
-    struct gm_formula *graph = &reading->system->graph;
-    gm_item_add(
-        reading, item,
-        gm_is_constant(graph, right, 0) ? left : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, left, right));
+    gm_item_add(reading, item, difference(&reading->system->graph, left, right));
 }
 
 /* Sets the value of a component after an event. */
@@ -356,7 +359,10 @@ static void replace(struct gm_reading *reading, struct gm_entry *entry, const st
         system->kind <= GM_LAGRANGIAN ? "coordinates and momenta" : "components", entry->name);
     gm_system_refuse_if(system, gm_system_is_tangent(system, entry->number), target->name.begin,
                         "%.60s is of a tangent, whose change follows from the event", entry->name);
-    item->nodes[1 + entry->number] = node;
+    gm_node_id *after = &item->nodes[1 + entry->number];
+    gm_system_refuse_if(system, *after != gm_formula_variable(&reading->system->graph, entry->number),
+                        target->name.begin, "%.60s is changed twice by this event", entry->name);
+    *after = node;
 }
 
 /* The first event of that name, or NULL. */
@@ -368,6 +374,19 @@ static const struct gm_system_item *event_named(const struct gm_user_system *sys
         i++;
     }
     return event;
+}
+
+/* Returns true if an event gives some component another value than it has where g is 0. */
+static bool changes(const struct gm_system_item *event, struct gm_user_system *system)
+{
+    struct gm_formula *graph = &system->graph;
+    bool other = false;
+    for (size_t i = 0; i < system->n; i++) {
+        const gm_node_id before = gm_formula_variable(graph, i), after = event->nodes[1 + i];
+        other = other || (after != before && difference(graph, before, after) != event->nodes[0] &&
+                          difference(graph, after, before) != event->nodes[0]);
+    }
+    return other;
 }
 
 /* event: [name;] g = h, conditions; x = F, y = G   or   ...; stop */
@@ -401,6 +420,10 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
         const struct gm_target target = gm_reading_assignment(reading, change);
         gm_reading_elements(reading, &target, replace, item);
     }
+    gm_system_refuse_if(
+        system, !item->ends && !changes(item, system), rest.begin,
+        "this event changes nothing: its components have these values there; p = -p turns a motion "
+        "back, stop ends it");
     while (gm_span_take(text, &piece, ",", &surface)) {
         gm_item_add(reading, item, gm_reading_condition(reading, surface));
     }

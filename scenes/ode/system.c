@@ -505,10 +505,11 @@ static void make_timing(struct gm_system_scene *system_scene)
     const double until = numbers[1] >= 0   ? numbers[1]
                          : numbers[2] >= 0 ? numbers[2] * dt
                                            : gm_written_rounded(100 * system_scene->radian);
+    const double end = system_scene->origin.until > 0 ? system_scene->origin.until : until;
     system_scene->is_stiff = !(numbers[0] > 0) && !(numbers[2] >= 0) && !system->texts[GM_WORD_SCHEMES] &&
-                             measure_start(system_scene->initial, is_stiff, until, 0) > 0;
+                             measure_start(system_scene->initial, is_stiff, end, 0) > 0;
     gm_written_timing(system_scene->arena, system,
-                      system_scene->is_stiff ? gm_written_rounded(until / STIFF_STEPS) : dt, until,
+                      system_scene->is_stiff ? gm_written_rounded(end / STIFF_STEPS) : dt, until,
                       system_scene->rows);
 }
 

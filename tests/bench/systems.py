@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What words of system files and questions about them cost, as medians of rounds in which both sides of a ratio take turns:
-an event that never happens beside stop: of the same formula, the spectrum of Lorenz beside three exponents, Newton's
-method for van der Pol's orbit, and an orbit diagram with its picture. No test: nothing fails here.
+an event that never happens beside stop: of the same formula, located breaks beside ignored ones, if beside a formula of
+as many operations, the spectrum of Lorenz beside three exponents, Newton's method for van der Pol's orbit, and an orbit
+diagram with its picture. No test: nothing fails here.
 systems.py GEOMINT [ROUNDS]"""
 import json
 import os
@@ -42,6 +43,19 @@ with tempfile.TemporaryDirectory() as folder:
         ratio = median_ratio(lambda: stepped("event.system", f"scheme={scheme}", "steps=300000"),
                              lambda: stepped("stop.system", f"scheme={scheme}", "steps=300000"))
         print(f"an event that never happens, beside stop:, {scheme}: {ratio:.2f} (wanted 1.2)")
+    with open("corner.system", "w") as file:
+        file.write("coordinates: q\nmomenta: p\nH: p^2/2 + 9.8*abs(q)\nstart: q = 5, p = 0\ndt: 0.01\n")
+    for scheme in "verlet", "rk4", "gauss4":
+        words = "corner.system", f"scheme={scheme}", "steps=1000000"
+        ratio = median_ratio(lambda: stepped(*words), lambda: stepped(*words, "breaks=ignored"))
+        print(f"located breaks, a corner every 202 steps, beside ignored ones, {scheme}: {ratio:.2f} (wanted 1.5)")
+    compiled = "scheme=rk4", "steps=1000000", "--engine", "native"
+    for name, force in ("pieces", "if(x > 0, -2*x - x^3/10, -x - x^3/5)"), ("smooth", "-3/2*x - 3/20*x^3 - (x + x^3/5)/1e9"):
+        with open(name + ".system", "w") as file:
+            file.write(f"rate: x = v, v = {force}\nstart: x = 1, v = 0\ndt: 0.01\n")
+    ratio = median_ratio(lambda: stepped("pieces.system", *compiled, "breaks=ignored"),
+                         lambda: stepped("smooth.system", *compiled))
+    print(f"if, compiled, beside a formula of as many operations, rk4: {ratio:.2f} (wanted 1.1)")
     lorenz = ("lorenz", "scheme=rk4", "dt=.005", "until=500", "--measure")
     ratio = median_ratio(lambda: whole("run", *lorenz, "lyapunov_spectrum"), lambda: 3 * whole("run", *lorenz, "lyapunov"))
     print(f"a spectrum of Lorenz, beside three exponents: {ratio:.2f} (wanted 1.5)")

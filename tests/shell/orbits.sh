@@ -55,6 +55,9 @@ assert len(rows) == 2 and all(abs(float(r["v"]) - math.sqrt(float(r["c"]) / (1 -
 
 # ---- periodic orbits of a flow ----
 
+# a start that does not return leads to a cycle that attracts
+status 0 orbit clock --json
+holds 'near(d["period"], 6.291054045776003, 1e-11) and near(d["multipliers"][1][0], 0.5330684683745183, 1e-9)'
 # the numbers are of an integrator of order 8 with the tolerance 1e-13, and Newton's method
 printf 'rate: x = y, y = (1 - x^2)*y - x\nstart: x = 2, y = 0\n' >vdp.system
 status 0 orbit ./vdp.system --json

@@ -103,6 +103,11 @@ made = run("hires", "scheme=radau5", "dt=0.1")
 check(made["status"] == "ok" and made["evaluations"] < 35 * made["steps"], "hires", made["message"],
       made["evaluations"] / made["steps"], "evaluations a step, where sweeps need 145")
 
+# an end that is typed decides what is stiff; a file with events takes a scheme that ends at them
+typed = ["system", "rate=x = z, z = ((1 - x^2)*z - x)/1e-6", "x=2", "z=0", "until=2"]
+made = json.loads(subprocess.run([geomint, "run", *typed, "--json", "--state"], capture_output=True, text=True).stdout)
+check(made["scheme"] == "gsl-msbdf" and abs(made["state"][0] - 1.7061677321) < 1e-4, "typed", made)
+
 # all reach t = 0.804, before the jump at 0.807; x there by gsl-msbdf with tolerance=1e-11
 for scheme, near in zip(IMPLICIT, [2e-2, 1e-4, 2e-4, 1e-5, 2e-6, 1e-7]):
     for dt in "1e-3", "1e-4":

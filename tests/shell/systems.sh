@@ -755,6 +755,38 @@ python3 -c 'import json; found = json.load(open("out"))["observables"]; assert a
 "$geomint" run ball.system scheme=gauss4 until=40 --json >out
 [ $? = 2 ] && value out status | grep -q events-accumulate || fail "bounces accumulate: $(cat out)"
 python3 -c 'import json, math; t = json.load(open("out"))["t"]; assert abs(t - math.sqrt(100/9.8)*(1 + 2*.8/.2)) < 1e-9, t' || fail "bounces accumulate at $(value out t)"
+# adaptive schemes, schemes with a memory and a library's end their steps at events, too
+python3 - "$geomint" <<'END' || fail 'events of adaptive schemes'
+import json, math, subprocess, sys
+def run(*words, code=0):
+    done = subprocess.run([sys.argv[1], "run", *words, "--json", "--state"], capture_output=True, text=True)
+    assert done.returncode == code, (words, done)
+    return json.loads(done.stdout)
+for scheme, near in ("dopri5", 1e-11), ("tao2", 0.05), ("projected(rk4; invariants: H)", 1e-11), \
+        ("relaxed(rk4; invariants: H)", 1e-9), ("gsl-rk8pd", 1e-5), ("gsl-msadams", 1e-5):
+    end = run("ball.system", "scheme=" + scheme, "until=10")
+    assert abs(end["t"] - 10) < 1e-10 and end["observables"]["events"] == 2, end
+    assert abs(end["state"][0] - 19.88043459390461) < near and abs(end["state"][1] - 3.428043459390466) < near, end
+accumulate = run("ball.system", "scheme=dopri5", "until=40", code=2)
+assert accumulate["status"] == "events-accumulate" and abs(accumulate["t"] - 28.749445424997305) < 1e-9, accumulate
+# events at the ends of steps, up to round-off, do not accumulate: a point between two walls
+with open("box.system", "w") as file:
+    file.write("rate: x = v, v = 0\nevent: x = 0; v = -v\nevent: x = 1; v = -v\nstart: x = 0.5, v = 1\nuntil: 1000\n")
+for words in [["scheme=rk4", dt] for dt in ("dt=0.1", "dt=0.03", "dt=0.5", "dt=2.5")] + [["scheme=dopri5", "dt=0.1"]]:
+    end = run("box.system", *words)
+    assert end["observables"]["events"] == 1000 and abs(end["state"][0] - 0.5) < 1e-9 and end["state"][1] == 1, (words, end)
+# a comet between walls: schemes in times of their own meet dopri5's numbers, and the end
+with open("comet.system", "w") as file:
+    file.write("coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)\nmonitor: 1/sqrt(x^2 + y^2)\n"
+               "event: wall; x = -0.8; p_x = -p_x\nstart: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\nuntil: 20\n")
+exact = run("comet.system", "scheme=dopri5", "dt=0.02", "tolerance=1e-13")["state"]
+for scheme, near in ("logh-kahan-li8", 1e-8), ("controlled-kahan-li8", 1e-6), ("poincare-gauss8", 1e-6), ("levi-civita", 1e-4):
+    end = run("comet.system", "scheme=" + scheme, "dt=0.005")
+    assert end["observables"]["events"] == 12 and abs(end["t"] - 20) < 1e-10, (scheme, end)
+    assert max(abs(a - b) for a, b in zip(end["state"], exact)) < near, (scheme, end, exact)
+END
+# no order is measured where every step is exact
+"$geomint" certify dopri5 --on ball.system >out && grep -q 'order 5, measured nowhere' out || fail "dopri5 on parabolas: $(cat out)"
 # without a rebound it comes to rest, and does not fall through the ground; nor upwards, nor where a later force lifts it
 "$geomint" run ball.system r=0 scheme=gauss4 until=40 --json >out
 [ $? = 2 ] && value out status | grep -q events-accumulate || fail "a ball without a rebound: $(cat out)"
@@ -837,7 +869,7 @@ done
 printf 'rate: x = 1, y = 0\nstart: x = 0, y = 0\nevent: x = 1; y = y + 1\nevent: x = 1; y = 2*y\nevent: x = 1, y > 1.5; y = y + 10\n' >three.system
 "$geomint" run three.system scheme=rk4 dt=0.3 until=2 --json --state >out || fail 'three at once'
 grep -q '"state":\[2,12\]' out || fail "three at once: $(cat out)"
-printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\nevent: q = 0; q = 0\n' >same.system
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\nevent: q = 0; q = q^2\n' >same.system
 "$geomint" run same.system scheme=rk4 until=20 --json >out && grep -q '"events":6,' out || fail "nothing changes: $(cat out)"
 wrong() {
     { sed '/^event/d' ball.system; printf '%s\n' "$1"; } >wrong.system
@@ -849,8 +881,10 @@ wrong 'event: y = 0' 'what happens'
 wrong 'event: 3 = r; v = 1' 'never changes'
 wrong 'event: y = 0, v; v = -v' 'a condition compares'
 wrong 'section: at bounce; y, v' 'there is no event bounce'
-wrong 'event: y = 0; v = -v' 'events need a scheme of one step; rk4 and gauss4 are' scheme=dopri5
-wrong 'event: y = 0; v = -v' 'events need a scheme of one step; rk4 and gauss4 are' scheme=gsl-msbdf
+wrong 'event: y = 0; v = 1, v = 2' 'v is changed twice by this event'
+wrong 'event: y = 0; y = 0' 'this event changes nothing'
+wrong 'event: y - r = 0; y = r, v = v' 'this event changes nothing'
+wrong 'event: y = 0; v = -v' 'its steps have their own length; rk4, gauss4 and dopri5 end' scheme=error-controlled-verlet
 wrong 'event: y = 0; v = -v' 'members=1' members=5
 printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nconstraint: x^2 + y^2 - 1\nstart: x = 1, y = 0, p_x = 0, p_y = 0\nevent: x = 0; p_x = 0\n' >held.system
 refused 1 'constraint' run ./held.system
@@ -928,6 +962,10 @@ grep -q 'H conserves energy  *not decided' out || fail "avf2 across corners: $(c
     fail "order through breaks: $(cat out)"
 "$geomint" certify rk4 --on springs.system breaks=ignored >out && grep -q 'no order can be measured' out ||
     fail "order across jumps: $(cat out)"
+# each lane that steps across breaks is named, once
+"$geomint" run springs.system scheme=gsl-msadams,dopri5,dopri5,rk4 dt=.1,.1,.2,.1 zip=yes >out 2>notes || fail "lanes across breaks: $(cat notes)"
+[ "$(grep -c 'steps across breaks; rk4 and gauss4 locate them' notes)" = 2 ] && grep -q 'dopri5 steps' notes &&
+    grep -q 'gsl-msadams steps' notes || fail "lanes across breaks: $(cat notes)"
 "$geomint" list springs.system --long | grep -q 'smooth .*breaks are located' || fail 'breaks in the list'
 # a switch that is never met changes no bit
 printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4 + 3*abs(q - 9) + max(q, -7) + min(p, 8) + mod(q + 2, 100)/3\nstart: q = 1, p = 0.3\ndt: 0.1\nuntil: 20\n' >far.system

@@ -22,7 +22,7 @@
 #include "core/schemes.h"
 #include "render/files/temporary.h"
 
-enum { MOST_RETURN = 1000000 /* steps until the first return */, MOST_STEPS = 1000000000 };
+enum { MOST_RETURN = 100000 /* steps until the first return */, MOST_STEPS = 1000000000 };
 
 struct work {
     const struct gm_options *options;
@@ -113,6 +113,9 @@ static void choose_period(struct work *work, struct gm_problem *problem)
         gm_command_end_if(options, !orbit->free, GM_EXIT_USAGE,
                           "the equations contain t: period= gives the period of their right side");
         orbit->period = gm_first_return(orbit, dt, MOST_RETURN);
+        if (isnan(orbit->period) && !work->held) {
+            orbit->period = gm_first_return(orbit, dt, MOST_RETURN);
+        }
         gm_command_end_if(options, isnan(orbit->period), GM_EXIT_NUMERICAL,
                           "the motion does not return to the plane through its start normal to f; start "
                           "closer to the orbit, or give its period=");

@@ -553,10 +553,11 @@ void gm_sweep_chart_draw(const void *data, struct gm_picture *picture)
     picture->clock = "";
     picture->caption = gm_picture_text(
         picture, "%s%s",
-        sweep->values ? gm_picture_text(picture, "The last %zu values of each run, one for each %s. ",
-                                        sweep->kept, sweep->at)
-        : binned      ? "What lies closer together is shown by its mean. "
-                      : "",
+        sweep->values
+            ? gm_picture_text(picture, "The last %zu values of each run, one for each %s. ", sweep->kept,
+                              strcmp(sweep->at, "section") == 0 ? "point of the section" : sweep->at)
+        : binned ? "What lies closer together is shown by its mean. "
+                 : "",
         chart->failed > 0
             ? gm_picture_text(picture, "%zu of the runs gave no numbers and are left out.", chart->failed)
             : "");

@@ -315,7 +315,7 @@ bool gm_periodic_find(struct gm_periodic *orbit)
 }
 
 struct returning {
-    const struct gm_periodic *orbit;
+    struct gm_periodic *orbit;
     double dt, time; /* NAN: no return */
     int64_t steps;
 };
@@ -323,7 +323,7 @@ struct returning {
 static void return_once(struct gm_arena *arena, void *data)
 {
     struct returning *returning = data;
-    const struct gm_periodic *orbit = returning->orbit;
+    struct gm_periodic *orbit = returning->orbit;
     const size_t n = orbit->problem->n;
     double *normal = gm_arena_take(arena, n, sizeof *normal), before = 0, farthest = 0;
     struct gm_run *run = open_run(orbit, arena, orbit->start, returning->dt);
@@ -342,9 +342,12 @@ static void return_once(struct gm_arena *arena, void *data)
         }
         before = beyond;
     }
+    if (run->status == GM_OK) {
+        memcpy(orbit->start, gm_run_state(run), n * sizeof *normal);
+    }
 }
 
-double gm_first_return(const struct gm_periodic *orbit, double dt, int64_t steps)
+double gm_first_return(struct gm_periodic *orbit, double dt, int64_t steps)
 {
     struct returning returning = {orbit, dt, NAN, steps};
     gm_arena_run_once(return_once, &returning);

@@ -28,10 +28,12 @@ struct gm_stiffness gm_stiffness_of(const struct gm_problem *problem, const doub
     const size_t n = problem->n;
     const struct gm_settings settings = {0};
     const struct gm_scheme *scheme = gm_scheme_find("gsl-msbdf");
-    const bool fits = gm_matrix_size(problem) > 0 && gm_scheme_fits(scheme, problem);
+    struct gm_problem between = *problem;
+    between.events = NULL;
+    const bool fits = gm_matrix_size(problem) > 0 && gm_scheme_fits(scheme, &between);
     double *matrix = fits ? calloc(n * n + 4 * n, sizeof *matrix) : NULL;
     struct gm_run *run =
-        matrix && until > 0 ? gm_run_open(problem, scheme, &settings, 0, until / PART / POINTS, y0) : NULL;
+        matrix && until > 0 ? gm_run_open(&between, scheme, &settings, 0, until / PART / POINTS, y0) : NULL;
     if (!run) {
         free(matrix);
         return (struct gm_stiffness){0};

@@ -20,13 +20,13 @@ static void frozen_values(const struct gm_problem *problem, struct gm_late_tape 
     for (size_t i = 0; i < tape->count * looks && !inputs; i++) {
         values[i] = NAN;
     }
-    for (size_t i = 0; i < tape->inputs * looks && inputs; i++) {
-        const size_t variable = i / looks;
-        inputs[i] = variable < given ? look[i]
-                    : variable < own ? self->values[variable]
-                                     : modes[variable - own];
+    for (size_t i = given; i < tape->inputs && inputs; i++) {
+        for (size_t k = 0; k < looks; k++) {
+            inputs[i * looks + k] = i < own ? self->values[i] : modes[i - own];
+        }
     }
     if (inputs) {
+        memcpy(inputs, look, given * looks * sizeof *inputs);
         gm_late_tape_values(tape, inputs, values, looks);
     }
     free(inputs);

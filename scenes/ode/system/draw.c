@@ -775,14 +775,15 @@ void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_
     if (alone) {
         return;
     }
-    /* if there is space for one graph only, it is the section of driven motion, else a conserved quantity */
+    /* if there is space for one graph only, it is the section of driven motion or at events, else a conserved quantity */
     const bool section =
-        system_scene->has_section && strcmp(lane->show, system_scene->shows[GM_SHOW_ALL]) == 0;
-    if (section && system_scene->stroboscopic) {
+                   system_scene->has_section && strcmp(lane->show, system_scene->shows[GM_SHOW_ALL]) == 0,
+               section_first = system_scene->stroboscopic || system_scene->at_event;
+    if (section && section_first) {
         draw_section(picture, lanes, count);
     }
     draw_numbers(picture, lanes, count, MOST_GRAPHS - (system_scene->has_section && !only_section ? 1 : 0));
-    if (section && !system_scene->stroboscopic) {
+    if (section && !section_first) {
         draw_section(picture, lanes, count);
     }
 }

@@ -18,6 +18,7 @@
    advantage of a symplectic Phi is lost. The memory is h, 0, and the compensation of the sum of times.
    Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993), section II.4; Hairer, Lubich &
    Wanner (2006), section VIII.1. */
+#include "core/ode/families/adaptive/variational_time.h"
 #include "core/ode/families/base_scheme.h"
 #include "core/ode/families/family.h"
 #include "core/schemes.h"
@@ -172,6 +173,12 @@ static enum gm_status start(const struct gm_task *task)
     return good ? GM_OK : GM_STEP_COLLAPSE;
 }
 
+static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct row *row = scheme->coefficients;
+    return row->by_error ? gm_lacks_events(scheme, problem) : NULL;
+}
+
 static const struct row verlet = {.base = "verlet"}, blanes_moan4 = {.base = "blanes-moan4"},
                         blanes_moan_nystrom6 = {.base = "blanes-moan-nystrom6"},
                         kahan_li8 = {.base = "kahan-li8"}, gauss4 = {.base = "gauss4"},
@@ -184,5 +191,6 @@ const struct gm_family gm_family_controlled_steps = {
     .parameters = gm_settings_of_sums,
     .start = start,
     .workspace_reset = workspace_reset,
+    .lacks = lacks,
     .adaptive = true,
 };

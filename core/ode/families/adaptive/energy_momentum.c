@@ -174,5 +174,6 @@ const struct gm_family gm_family_energy_momentum = {
     GM_MEMBERS_WITH_MEMORY(energy_momentum, .step = midpoint_step, .remembered = REMEMBERED, .room = room_of),
     .parameters = gm_settings_of_variational_time,
     .start = start,
+    .lacks = gm_lacks_events,
     .adaptive = true,
 };

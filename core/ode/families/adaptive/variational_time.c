@@ -17,6 +17,7 @@
    of restarts. */
 #include "core/ode/families/adaptive/variational_time.h"
 
+#include "core/events.h"
 #include "core/functions/functions.h"
 #include "core/ode/families/family.h"
 
@@ -209,10 +210,19 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
+const char *gm_lacks_events(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    (void)scheme;
+    return problem->events && problem->events->changes
+               ? "a motion without events (its steps have their own length; rk4, gauss4 and dopri5 end one at an event)"
+               : NULL;
+}
+
 const struct gm_family gm_family_variational_time = {
     .title = "variational, with variable time step",
     GM_MEMBERS_WITH_MEMORY(variational_time, .step = step, .remembered = REMEMBERED),
     .parameters = gm_settings_of_variational_time,
     .start = start,
+    .lacks = gm_lacks_events,
     .adaptive = true,
 };
