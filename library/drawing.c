@@ -34,7 +34,7 @@ static bool paint(struct drawing *drawing, char *message)
     const unsigned long refusals = gm_memory_refusals();
     bool good = picture && rgb;
     if (good) {
-        const struct gm_request *request = &drawing->handle->request;
+        const struct gm_request *request = drawing->handle->request;
         gm_lanes_draw(drawing->lanes, request->count, picture);
         good = gm_canvas_paint(canvas, picture, rgb) && gm_memory_refusals() == refusals;
     }
@@ -52,7 +52,7 @@ static bool paint(struct drawing *drawing, char *message)
 static bool print(struct drawing *drawing, char *message)
 {
     struct gm_print print = {.path = drawing->path, .look = drawing->look, .format = drawing->format};
-    return gm_still_write(&print, &drawing->handle->request, drawing->lanes, message);
+    return gm_still_write(&print, drawing->handle->request, drawing->lanes, message);
 }
 
 /* The body of a thread, where no OpenGL context of the host is current: so none is replaced. */
@@ -62,9 +62,9 @@ static void *draw(void *data)
     geomint *handle = drawing->handle;
     char message[GM_MESSAGE] = "";
     uselocale(gm_library_locale);
-    if (gm_handle_follow(handle)) {
-        for (size_t i = 0; i < handle->request.count; i++) {
-            drawing->lanes[i] = handle->drawn[i].lane;
+    if (handle->session || gm_handle_follow(handle)) { /* a session records its steps itself */
+        for (size_t i = 0; i < handle->request->count; i++) {
+            drawing->lanes[i] = handle->session ? handle->session->lanes[i] : handle->drawn[i].lane;
         }
         const bool pixels = !drawing->path || drawing->format == GM_FORMAT_PNG;
         if (pixels && !gm_canvas_choose(NULL, message)) {

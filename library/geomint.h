@@ -140,6 +140,61 @@ int geomint_row(geomint *handle, size_t lane, double *t, double *values);
 int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values,
                  size_t *made);
 
+/* ---- exploring ---- */
+
+/* Opens words as the explorer does: lanes that advance together and can be changed during the run; by default with
+   the scene's first three schemes. The functions for rows and pictures serve these lanes too, but geomint_step and
+   geomint_until are refused, geomint_rows makes no row, and the pointer of geomint_state is valid until the next
+   function below. The functions return GEOMINT_USAGE, and change nothing, if something does not fit, and
+   GEOMINT_NUMERICAL if a lane has failed; the other lanes continue.
+
+       geomint *lab = geomint_explore(2, (const char *[]){"kepler", "scheme=verlet"});
+       geomint_advance(lab, 10);
+       geomint_fork(lab, 0, "rk4");
+       geomint_advance(lab, 20);
+       puts(geomint_view(lab)); */
+geomint *geomint_explore(int count, const char *const words[]);
+
+/* Advance all lanes by the steps that end at or before the time t, without effect if it has passed; make the next
+   step; take it back. */
+int geomint_advance(geomint *handle, double t);
+int geomint_forward(geomint *handle);
+int geomint_back(geomint *handle);
+/* Lets time run the other way from here, dt to -dt; a second call lets it run forwards again. */
+int geomint_reverse(geomint *handle);
+/* Turns back to the last stored state at or before `passed`, the model time that the lanes have passed in both
+   directions: t - t0 until time is reversed. Later states can be visited too until a lane advances or is changed. */
+int geomint_visit(geomint *handle, double passed);
+/* Restarts all lanes with their current schemes and parameters. */
+int geomint_restart(geomint *handle);
+/* Undoes the last change of a parameter or of a scheme; at most 32 are stored. */
+int geomint_undo(geomint *handle);
+
+/* Continue a lane with another scheme: itself, or a copy, which is the new last lane. A scheme is a name, the path of
+   a .scheme file, or a word. */
+int geomint_switch(geomint *handle, size_t lane, const char *scheme);
+int geomint_fork(geomint *handle, size_t lane, const char *scheme);
+/* Adds a last lane at its start, with the parameters of `lane`. There are at most six lanes. */
+int geomint_add(geomint *handle, size_t lane, const char *scheme);
+/* Removes a lane; the numbers of the later ones become smaller. The last lane stays. */
+int geomint_remove(geomint *handle, size_t lane);
+
+/* Set a parameter of the scene or of its schemes: to a value as it is typed, "0.01", "pi/12" (NULL: the default), or
+   to a position from 0 to 1 in its range. It is set in all lanes, or only in `lane` if they differ in it. A live
+   parameter acts at once; for another one all lanes restart. */
+int geomint_set(geomint *handle, size_t lane, const char *key, const char *value);
+int geomint_slide(geomint *handle, size_t lane, const char *key, double position);
+/* Presses a key that has one meaning in the explorer: ".", ",", "B", "r", "tab", "c", "x", "o", "u", "PgUp", "PgDn",
+   "Home" or "End". A key acts on the selected lane: "selected" of geomint_view. */
+int geomint_press(geomint *handle, const char *key);
+
+/* Return JSON, valid until the next text of the handle; NULL when out of memory, or for lanes that are not explored.
+   The first is an object: the scene and its times, "lanes" (scheme, status, t, steps, evaluations, the values of the
+   observables), "observables" (key, title, unit) and "parameters" (key, value, position, live, choices, help). The
+   second is an array of the schemes that fit, as geomint_text describes one. */
+const char *geomint_view(geomint *handle);
+const char *geomint_schemes(geomint *handle);
+
 /* ---- pictures ---- */
 
 /* Draws all lanes in their current state into rgba: height rows of width * 4 bytes, the top row first; red,

@@ -156,19 +156,29 @@ static void name_quantities(struct gm_arena *arena, struct gm_handle_lane *lane)
     lane->scratch = gm_arena_take(arena, most, sizeof *lane->scratch);
 }
 
+void gm_handle_read(struct gm_arena *arena, struct gm_handle_words *opening, size_t schemes)
+{
+    char message[GM_MESSAGE];
+    geomint *handle = opening->handle;
+    struct gm_request *request = &handle->words;
+    struct gm_arguments *typed = gm_arguments_in(arena);
+    gm_arena_need(arena, gm_arguments_append(typed, (char *const *)opening->words, opening->count));
+    if (!gm_request_parse(request, typed->count, typed->words, schemes, message)) {
+        opening->refusal = gm_request_refusal(request);
+        gm_arena_refuse(arena, "%s", message);
+    }
+    handle->request = gm_arena_keep(arena, request, gm_request_close);
+    gm_arena_keep(arena, &handle->chosen, gm_chosen_close);
+    gm_arena_check(arena, gm_chosen_open(&handle->chosen, request->scene, NULL, message), message);
+}
+
 static void open_lanes(struct gm_arena *arena, void *data)
 {
     char message[GM_MESSAGE];
     struct gm_handle_words *opening = data;
     geomint *handle = opening->handle;
-    struct gm_request *request = &handle->request;
-    struct gm_arguments *typed = gm_arguments_in(arena);
-    gm_arena_need(arena, gm_arguments_append(typed, (char *const *)opening->words, opening->count));
-    if (!gm_request_parse(request, typed->count, typed->words, 1, message)) {
-        opening->refusal = gm_request_refusal(request);
-        gm_arena_refuse(arena, "%s", message);
-    }
-    gm_arena_keep(arena, request, gm_request_close);
+    gm_handle_read(arena, opening, 1);
+    const struct gm_request *request = handle->request;
     handle->lanes = gm_arena_take(arena, request->count, sizeof *handle->lanes);
     for (size_t i = 0; i < request->count; i++) {
         struct gm_handle_lane *lane = &handle->lanes[i];
@@ -178,8 +188,6 @@ static void open_lanes(struct gm_arena *arena, void *data)
                               .index = i};
         name_quantities(arena, lane);
     }
-    gm_arena_keep(arena, &handle->chosen, gm_chosen_close);
-    gm_arena_check(arena, gm_chosen_open(&handle->chosen, request->scene, NULL, message), message);
 }
 
 geomint *geomint_open(int count, const char *const words[])
@@ -200,7 +208,7 @@ void geomint_close(geomint *handle)
 
 size_t geomint_lanes(const geomint *handle)
 {
-    return handle && handle->lanes ? handle->request.count : 0;
+    return handle && handle->lanes ? handle->request->count : 0;
 }
 
 /* ---- driving ---- */
@@ -224,10 +232,37 @@ static void look(geomint *handle, struct gm_handle_lane *lane)
     }
 }
 
+static void show(struct gm_arena *arena, void *data)
+{
+    geomint *handle = data;
+    const struct gm_session *session = handle->session;
+    gm_arena_release(arena, handle->mark);
+    handle->lanes = gm_arena_take(arena, session->count, sizeof *handle->lanes);
+    for (size_t i = 0; i < session->count; i++) {
+        handle->lanes[i].drive =
+            (struct gm_drive){.lane = session->lanes[i], .request = handle->request, .index = i};
+        session->log.lanes[i].steps = session->lanes[i]->run->steps; /* no lane has an end */
+        name_quantities(arena, &handle->lanes[i]);
+        look(handle, &handle->lanes[i]);
+    }
+}
+
+void gm_handle_show(geomint *handle)
+{
+    if (!gm_arena_run(handle->arena, show, handle)) {
+        handle->lanes = NULL;
+    }
+}
+
 /* Makes steps up to the total `steps`, or, with an adaptive scheme, up to the time `until`. */
 static void drive_to(geomint *handle, size_t index, int64_t steps, double until)
 {
     struct gm_handle_lane *lane = &handle->lanes[index];
+    if (handle->session) {
+        gm_handle_refuse(handle, GEOMINT_USAGE,
+                         "lanes that are explored advance together: use geomint_forward or geomint_advance");
+        return;
+    }
     lane->drive.stop = &until;
     lane->drive.whole_steps = true;
     if (!gm_drive_to(&lane->drive, steps, false, handle->message)) {
@@ -277,7 +312,7 @@ int64_t geomint_steps_left(const geomint *handle, size_t lane)
     if (!run) {
         return 0;
     }
-    const int64_t end = handle->request.lanes[lane].steps;
+    const int64_t end = handle->request->lanes[lane].steps;
     return !gm_drive_goes_on(&handle->lanes[lane].drive, end) ? 0
            : run->scheme->family->adaptive                    ? -1
                                                               : end - run->steps;
@@ -316,7 +351,7 @@ int geomint_observe(geomint *handle, const char *keys)
     const struct gm_call call = gm_call_begin(handle);
     struct gm_chosen chosen;
     if (gm_handle_has(handle, 0)) {
-        if (gm_chosen_open(&chosen, handle->request.scene, keys, handle->message)) {
+        if (gm_chosen_open(&chosen, handle->request->scene, keys, handle->message)) {
             gm_chosen_close(&handle->chosen);
             handle->chosen = chosen;
         } else {
@@ -344,7 +379,7 @@ static struct column column_of(const geomint *handle, size_t index, size_t colum
     const size_t moving = lane->quantity_count - lane->fixed_count, told = handle->chosen.count;
     if (column >= moving && column < moving + told) {
         found.number = handle->chosen.numbers[column - moving];
-        found.observable = gm_scene_observable_at(handle->request.scene, found.number);
+        found.observable = gm_scene_observable_at(handle->request->scene, found.number);
     } else if (column < lane->quantity_count + told) {
         found.number = column < moving ? column : column - told;
         found.quantity = &lane->quantities[found.number];
@@ -406,11 +441,11 @@ int geomint_observable(geomint *handle, size_t lane, const char *key, double *va
     const struct gm_call call = gm_call_begin(handle);
     if (gm_handle_has(handle, lane) && gm_handle_given(handle, key, "key") &&
         gm_handle_given(handle, value, "value")) {
-        const int found = gm_scene_observable(handle->request.scene, key);
+        const int found = gm_scene_observable(handle->request->scene, key);
         if (found >= 0) {
             *value = gm_lane_observe(handle->lanes[lane].drive.lane, (size_t)found);
         } else {
-            gm_chosen_refuse(handle->request.scene, key, handle->message);
+            gm_chosen_refuse(handle->request->scene, key, handle->message);
             gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
         }
     }
@@ -459,7 +494,7 @@ static size_t make_rows(geomint *handle, size_t index, int64_t every, size_t row
     struct gm_handle_lane *lane = &handle->lanes[index];
     struct gm_drive *drive = &lane->drive;
     const struct gm_run *run = drive->lane->run;
-    const int64_t end = handle->request.lanes[index].steps;
+    const int64_t end = handle->request->lanes[index].steps;
     size_t made = 0;
     while (made < rows && gm_drive_goes_on(drive, end)) {
         const int64_t before = run->steps, left = every - before % every;
@@ -499,7 +534,7 @@ static void follow(struct gm_arena *arena, void *data)
 {
     char message[GM_MESSAGE];
     geomint *handle = data;
-    const struct gm_request *request = &handle->request;
+    const struct gm_request *request = handle->request;
     const bool fresh = !handle->drawn;
     handle->drawn = fresh ? gm_arena_take(arena, request->count, sizeof *handle->drawn) : handle->drawn;
     for (size_t i = 0; i < request->count; i++) {
@@ -555,6 +590,12 @@ static bool put_lane(FILE *stream, const struct gm_drive *drive)
     return meta != NULL;
 }
 
+const char *gm_handle_written(geomint *handle, struct gm_text_stream *writing)
+{
+    free(handle->text);
+    return handle->text = gm_stream_end(writing);
+}
+
 const char *geomint_text(geomint *handle)
 {
     const size_t count = geomint_lanes(handle);
@@ -562,10 +603,8 @@ const char *geomint_text(geomint *handle)
         return handle ? handle->text : NULL;
     }
     const struct gm_call call = gm_call_begin(handle);
-    size_t size = 0;
-    free(handle->text);
-    handle->text = NULL;
-    FILE *stream = open_memstream(&handle->text, &size);
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
     bool good = stream != NULL;
     for (size_t i = 0; i < count && good; i++) {
         fputc(i > 0 ? ',' : '[', stream);
@@ -573,8 +612,8 @@ const char *geomint_text(geomint *handle)
     }
     if (stream) {
         fputc(']', stream);
-        good = fclose(stream) == 0 && good;
     }
+    good = gm_handle_written(handle, &writing) && good;
     gm_call_end(&call);
     return good ? handle->text : NULL;
 }

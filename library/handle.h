@@ -5,6 +5,8 @@
 #include <locale.h>
 #include <stdbool.h>
 
+#include "app/base/arguments.h"
+#include "app/runs/session.h"
 #include "app/words/drive.h"
 #include "app/words/names.h"
 #include "core/quantity.h"
@@ -22,9 +24,13 @@ struct gm_handle_lane {
 };
 
 struct geomint {
-    struct gm_arena *arena; /* owns the request, the lanes and their copies */
-    struct gm_request request;
-    struct gm_chosen chosen; /* observables of a row */
+    struct gm_arena *arena;           /* owns the words, the session, the lanes and their copies */
+    struct gm_request words;          /* read from the words of the opening */
+    const struct gm_request *request; /* the lanes' request: `words`, or the session's log */
+    struct gm_session *session;       /* NULL: the lanes are driven one by one */
+    struct gm_shot *shot;             /* the session's */
+    size_t mark;                      /* in the arena, before the lanes of a session */
+    struct gm_chosen chosen;          /* observables of a row */
     struct gm_handle_lane *lanes;
     struct gm_drive *drawn; /* a lane for each, which is recorded step by step; NULL: nothing was drawn */
     char *text;
@@ -57,6 +63,13 @@ struct gm_handle_words {
 /* A new handle that the body fills, in its arena: the body's data is the opening. Returns NULL when out of
    memory. */
 geomint *gm_handle_open(struct gm_handle_words opening, void (*body)(struct gm_arena *arena, void *opening));
+
+/* Reads the words of an opening; `schemes` as for gm_request_parse. Leaves the body with a sentence. */
+void gm_handle_read(struct gm_arena *arena, struct gm_handle_words *opening, size_t schemes);
+/* Takes the lanes of a session, which have changed, and reports those that have failed. */
+void gm_handle_show(geomint *handle);
+/* Ends a text, which the handle has until the next one; NULL when out of memory. */
+const char *gm_handle_written(geomint *handle, struct gm_text_stream *writing);
 
 /* Sets the status and the message of a call. Returns false. */
 bool gm_handle_refuse(geomint *handle, int status, const char *sentence);

@@ -34,13 +34,6 @@ static void order_picture(struct gm_explorer *explorer, const struct key *key)
     order(explorer, &(const struct key){.meaning = key->meaning, .amount = (int)face->theme});
 }
 
-static void visit(struct gm_explorer *explorer, const struct key *key)
-{
-    const double moment = key->code == KEY_END ? explorer->open.shot->reach : 0;
-    gm_explorer_order(explorer,
-                      (struct gm_order){.kind = GM_ORDER_VISIT, .amount = key->amount, .value = moment});
-}
-
 static void order_portrait(struct gm_explorer *explorer, const struct key *key)
 {
     const struct gm_parameter *row = gm_scene_parameter(explorer->open.scene, "portrait");
@@ -217,14 +210,21 @@ static const struct {
     void (*act)(struct gm_explorer *explorer, const struct key *key);
     void (*call)(struct gm_explorer *explorer); /* if there is no `act` */
 } rows[] = {
+#define GM_ORDER_KEYS(...)
 #define GM_KEYS(label, hint, rank, text, function, ...) {.keys = {__VA_ARGS__}, .function},
-#include "app/explorer/view/keys.def"
+#include "app/runs/keys.def"
 #undef GM_KEYS
+#undef GM_ORDER_KEYS
 };
 
 /* Carries out a key of the table; returns false if it has no row. */
 static bool act_on(struct gm_explorer *explorer, int key)
 {
+    struct gm_order order;
+    if (gm_key_order(key, &order)) {
+        gm_explorer_order(explorer, order);
+        return true;
+    }
     for (size_t i = 0; i < GM_COUNT(rows); i++) {
         for (size_t k = 0; k < CODES && rows[i].keys[k].code; k++) {
             if (rows[i].keys[k].code != key) {

@@ -449,8 +449,9 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
     return true;
 }
 
-void gm_session_close(struct gm_session *session)
+void gm_session_close(void *self)
 {
+    struct gm_session *session = self;
     for (size_t i = 0; i < session->count; i++) {
         forget_wanted(session, i);
         close_past(&session->pasts[i]);
@@ -464,6 +465,7 @@ bool gm_session_restart(struct gm_session *session, char *message)
 {
     struct fresh fresh[GM_MOST_LANES] = {0};
     bool ok = true, same = session->log.change_count == 0;
+    session->restart = false;
     for (size_t i = 0; ok && i < session->count; i++) {
         const struct gm_lane *lane = session->lanes[i];
         fresh[i] = open_lane(session->scene, gm_session_owner(session, i, false),

@@ -12,6 +12,8 @@
 
 enum { GM_MOST_LANES = 24 };
 
+struct gm_tour;
+
 /* Snapshots of one lane in bounded memory. When they are full every other one is dropped, so that the
    whole past stays available: the steps between two snapshots are repeated. */
 
@@ -30,6 +32,59 @@ struct gm_past { /* an empty one is {.every = 1} */
     double gone, from; /* the model time that the lane has passed in both directions: gone + |t - from| */
 };
 
+/* The orders that the user can give to a session. */
+
+enum gm_order_kind {
+    /* the clock restarts after these */
+    GM_ORDER_PAUSE, /* pauses, or resumes */
+    GM_ORDER_FORWARD,
+    GM_ORDER_BACK,
+    GM_ORDER_TURN,  /* reverses time */
+    GM_ORDER_VISIT, /* shows the snapshots at `value` of the past in model time, or `amount` twentieths away */
+    GM_ORDER_AHEAD,  /* runs ahead to the time `text`, without shots */
+    GM_ORDER_HALT,   /* stops running ahead */
+    GM_ORDER_SAVE,   /* saves a PNG; amount: the theme, as for GM_ORDER_RECORD and GM_ORDER_TELL */
+    GM_ORDER_SYSTEM, /* saves the user-defined system to a file */
+    GM_ORDER_RECORD, /* starts a movie of the screen, or finishes it */
+    GM_ORDER_TOUR,   /* plays a tour's step; amount is 1 if it waits at its start */
+    GM_ORDER_RUN,    /* resumes if paused */
+    /* the clock continues after these */
+    GM_ORDER_SELECT, /* selects a lane: `amount` up or down, or if that is 0 number `value` */
+    GM_ORDER_SWITCH, /* switches the selected lane to `scheme` */
+    GM_ORDER_FORK,   /* copies the selected lane with `scheme` */
+    GM_ORDER_ADD,
+    GM_ORDER_REMOVE,
+    GM_ORDER_OVERLAY,
+    GM_ORDER_TELL, /* sets the command lines of the view in the next shot */
+    GM_ORDER_UNDO, /* undoes the last change of a parameter or a scheme */
+    /* these may be combined with a restart that is due */
+    GM_ORDER_SPEED,    /* changes the speed by `amount` */
+    GM_ORDER_MOVE,     /* moves a parameter `amount` values up or down */
+    GM_ORDER_NUDGE,    /* moves a parameter to a nearby value */
+    GM_ORDER_STANDARD, /* resets a parameter */
+    GM_ORDER_TYPE,     /* sets a parameter to `text` */
+    GM_ORDER_SLIDE, /* sets a parameter to the part `value` of its range, 0 to 1; amount: 1 if a drag begins */
+    GM_ORDER_LOOK,  /* turns the camera by x, y degrees (azimuth, elevation), scales the zoom by `value` */
+    GM_ORDER_POINT, /* restarts from the point (x, y) of a state's panel, if the scene supports it */
+    GM_ORDER_RESTART,
+};
+
+/* size of a typed line in bytes; one more than a value may have, so that a longer one is refused */
+enum { GM_TYPED = GM_TEXT_SIZE + 1 };
+
+enum { GM_UNDOS = 32 }; /* changes that can be undone */
+
+struct gm_order {
+    enum gm_order_kind kind;
+    int amount;
+    double value, x, y;
+    char text[GM_TYPED];
+    const struct gm_parameter *row; /* of the scene or of the schemes */
+    const struct gm_scheme *scheme;
+    const struct gm_tour *tour; /* the tour outlives the worker */
+    size_t step;
+};
+
 struct gm_session {
     const struct gm_scene *scene;
     size_t count; /* number of lanes, at least 1 */
@@ -38,14 +93,18 @@ struct gm_session {
     /* The parameters for gm_session_restart; NULL without changes. Until then a lane has those with which
        its problem was made. */
     struct gm_lane_spec wanted[GM_MOST_LANES];
-    struct gm_request log; /* the lanes' starts, and the changes since */
-    bool visiting;         /* an earlier moment is shown; later ones stay until a lane advances */
-    bool turned;           /* time has run backwards since the start */
+    struct gm_request log;           /* the lanes' starts, and the changes since */
+    bool visiting;                   /* an earlier moment is shown; later ones stay until a lane advances */
+    bool turned;                     /* time has run backwards since the start */
+    size_t selected;                 /* the lane on which orders act */
+    bool restart;                    /* a restart is due */
+    struct gm_order undos[GM_UNDOS]; /* what undoes the last changes; `value` is the lane, below 0: all */
+    size_t undo_count;
 };
 
 /* Opens the lanes of a request, which is copied. Returns false with a sentence (GM_MESSAGE bytes). */
 bool gm_session_open(struct gm_session *session, const struct gm_request *request, char *message);
-void gm_session_close(struct gm_session *session);
+void gm_session_close(void *session);
 
 /* Restarts all lanes with their current schemes and the parameters as last set. Returns false with a
    sentence if those contradict each other; the lanes are then unchanged. */
@@ -105,6 +164,10 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
 bool gm_session_remove(struct gm_session *session, size_t lane, char *message);
 /* All lanes in one panel, or a panel for each. */
 bool gm_session_overlay(struct gm_session *session, char *message);
+
+/* Carries out an order that needs no clock and writes no file. Returns false with a sentence; on success the
+   message (GM_MESSAGE bytes) is "" or a report. The caller makes a restart that is then due. */
+bool gm_session_obey(struct gm_session *session, const struct gm_order *order, char *message);
 
 /* The fitting schemes, the scene's preferred ones first; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
@@ -180,13 +243,25 @@ struct gm_shot {
 };
 
 bool gm_shot_open(struct gm_shot *shot);
-void gm_shot_close(struct gm_shot *shot);
+void gm_shot_close(void *shot);
 
 /* Copies the session's data without a change to it. The picture is drawn, or stays. */
-void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw);
+void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, bool draw);
 
 /* Returns true if a lane has the scheme. */
 bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme);
+
+/* Keys, as ncurses numbers them. */
+
+enum { GM_KEY_ESCAPE = 27, GM_KEY_REDRAW = 'L' - '@' };
+
+/* Returns the key of a name in a script, such as ENTER in any case, of a label in a hint, or of a letter; else 0. */
+int gm_key_named(const char *word, size_t length);
+/* Returns the name number `index` in a script, or NULL. */
+const char *gm_key_name(size_t index);
+
+/* The order that a key gives without a look at the screen. Returns false if it gives none. */
+bool gm_key_order(int key, struct gm_order *order);
 
 /* Steps of a parameter by keys: round values, at equal distances or ratios. */
 

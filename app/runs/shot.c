@@ -14,8 +14,9 @@ bool gm_shot_open(struct gm_shot *shot)
     return shot->picture != NULL;
 }
 
-void gm_shot_close(struct gm_shot *shot)
+void gm_shot_close(void *self)
 {
+    struct gm_shot *shot = self;
     gm_picture_close(shot->picture);
     shot->picture = NULL;
     for (size_t i = 0; i < GM_COMMANDS; i++) {
@@ -89,11 +90,11 @@ bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme)
     return false;
 }
 
-void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw)
+void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, bool draw)
 {
     shot->scene = session->scene;
     shot->lane_count = session->count;
-    shot->selected = selected;
+    shot->selected = session->selected;
     shot->ahead = suggested_end(session);
     shot->gone = gm_session_gone(session);
     shot->reach = gm_session_reach(session);

@@ -18,7 +18,8 @@ fail() {
 nm -D --defined-only --with-symbol-versions "$library" | awk '$2 == "T" { print $3 }' | LC_ALL=C sort >"$folder/symbols"
 diff "$source/tests/reference/symbols.txt" "$folder/symbols" ||
     fail 'the symbols of the library are not those of tests/reference/symbols.txt'
-sed -n 's/^    \(geomint_[a-z_]*\);$/\1@@GEOMINT_0.1/p' "$source/library/geomint.map" | LC_ALL=C sort >"$folder/mapped"
+awk '/^GEOMINT_/ { version = $1 } /^    geomint_/ { print substr($1, 1, length($1) - 1) "@@" version }' \
+    "$source/library/geomint.map" | LC_ALL=C sort >"$folder/mapped"
 cmp "$folder/symbols" "$folder/mapped" || fail 'the map names a function that is not there'
 for name in $(sed 's/@.*//' "$folder/symbols"); do
     grep -q "[ *]$name(" "$source/library/geomint.h" || fail "geomint.h does not have $name"

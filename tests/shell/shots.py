@@ -165,8 +165,8 @@ def hints():
 
 def help_texts():
     """Returns the texts of the help, by the table of keys."""
-    table = open(os.path.join(SOURCE, "app/explorer/view/keys.def"), encoding="utf-8").read()
-    return re.findall(r'GM_KEYS\("[^"]*", (?:NULL|"[^"]*"), \d+,\s*"([^"]*)"', table)
+    table = open(os.path.join(SOURCE, "app/runs/keys.def"), encoding="utf-8").read()
+    return re.findall(r'KEYS\("[^"]*", (?:NULL|"[^"]*"), \d+,\s*"([^"]*)"', table)
 
 
 def pages():

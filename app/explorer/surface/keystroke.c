@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The names of keys, typed words, and the search. */
+/* Typed words, and the search. */
 #include "app/explorer/surface/surface.h"
 
 #include <ctype.h>
@@ -10,33 +10,6 @@
 #include <strings.h>
 
 #include "core/basics.h"
-
-/* The words of scripts and, below them, the other labels of hints. */
-static const struct {
-    const char *name;
-    int key;
-} named[] = {{"ENTER", '\n'},     {"ESC", GM_KEY_ESCAPE}, {"TAB", '\t'},
-             {"SPACE", ' '},      {"UP", KEY_UP},         {"DOWN", KEY_DOWN},
-             {"LEFT", KEY_LEFT},  {"RIGHT", KEY_RIGHT},   {"BACKSPACE", KEY_BACKSPACE},
-             {"PGUP", KEY_PPAGE}, {"PGDN", KEY_NPAGE},    {"HOME", KEY_HOME},
-             {"END", KEY_END},    {"F1", KEY_F(1)},       {"CTRL-U", 'U' - '@'},
-             {"↑", KEY_UP},       {"↓", KEY_DOWN},        {"←", KEY_LEFT},
-             {"→", KEY_RIGHT},    {"⌫", KEY_BACKSPACE}};
-
-int gm_key_named(const char *word, size_t length)
-{
-    for (size_t i = 0; length > 0 && i < GM_COUNT(named); i++) {
-        if (strlen(named[i].name) == length && strncasecmp(word, named[i].name, length) == 0) {
-            return named[i].key;
-        }
-    }
-    return length == 1 ? word[0] : 0;
-}
-
-const char *gm_key_name(size_t index)
-{
-    return index < GM_COUNT(named) && (unsigned char)named[index].name[0] < 0x80 ? named[index].name : NULL;
-}
 
 bool gm_typed_key(char *typed, int key)
 {

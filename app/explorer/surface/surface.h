@@ -76,15 +76,6 @@ struct gm_face {
     struct gm_studies *studies;                 /* the background studies; NULL if not available */
 };
 
-/* Keys, as ncurses numbers them. */
-
-enum { GM_KEY_ESCAPE = 27, GM_KEY_REDRAW = 'L' - '@' };
-
-/* Returns the key of a name in a script, such as ENTER in any case, of a label in a hint, or of a letter; else 0. */
-int gm_key_named(const char *word, size_t length);
-/* Returns the name number `index` in a script, or NULL. */
-const char *gm_key_name(size_t index);
-
 /* Adds a letter to a line of GM_TYPED bytes, or deletes its last one; returns false for other keys. */
 bool gm_typed_key(char *typed, int key);
 

@@ -55,7 +55,9 @@ static void put_key(struct page *page, const char *label, const char *text)
 static void put_key_rows(struct page *page)
 {
 #define GM_KEYS(label, hint, rank, text, ...) put_key(page, label, text);
-#include "app/explorer/view/keys.def"
+#define GM_ORDER_KEYS GM_KEYS
+#include "app/runs/keys.def"
+#undef GM_ORDER_KEYS
 #undef GM_KEYS
 }
 

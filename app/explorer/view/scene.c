@@ -112,7 +112,9 @@ static void key_hints(const struct gm_shot *shot, char *hints, size_t size)
         int rank;
     } rows[] = {
 #define GM_KEYS(label, hint, rank, ...) {label, hint, rank},
-#include "app/explorer/view/keys.def"
+#define GM_ORDER_KEYS GM_KEYS
+#include "app/runs/keys.def"
+#undef GM_ORDER_KEYS
 #undef GM_KEYS
     };
     hints[0] = '\0';

@@ -6,65 +6,11 @@
 #include "app/tours/tour.h"
 #include "render/layout/appearance.h"
 
-/* The orders that the user can give to a session. */
-
-enum gm_order_kind {
-    /* the clock restarts after these */
-    GM_ORDER_PAUSE, /* pauses, or resumes */
-    GM_ORDER_FORWARD,
-    GM_ORDER_BACK,
-    GM_ORDER_TURN,   /* reverses time */
-    GM_ORDER_VISIT,  /* shows the snapshots at `value` of the past in model time, or moves by `amount` */
-    GM_ORDER_AHEAD,  /* runs ahead to the time `text`, without shots */
-    GM_ORDER_HALT,   /* stops running ahead */
-    GM_ORDER_SAVE,   /* saves a PNG; amount: the theme, as for GM_ORDER_RECORD and GM_ORDER_TELL */
-    GM_ORDER_SYSTEM, /* saves the user-defined system to a file */
-    GM_ORDER_RECORD, /* starts a movie of the screen, or finishes it */
-    GM_ORDER_TOUR,   /* plays a tour's step; amount is 1 if it waits at its start */
-    GM_ORDER_RUN,    /* resumes if paused */
-    /* the clock continues after these */
-    GM_ORDER_SELECT, /* selects a lane: `amount` up or down, or if that is 0 number `value` */
-    GM_ORDER_SWITCH, /* switches the selected lane to `scheme` */
-    GM_ORDER_FORK,   /* copies the selected lane with `scheme` */
-    GM_ORDER_ADD,
-    GM_ORDER_REMOVE,
-    GM_ORDER_OVERLAY,
-    GM_ORDER_TELL, /* sets the command lines of the view in the next shot */
-    GM_ORDER_UNDO, /* undoes the last change of a parameter or a scheme */
-    /* these may be combined with a restart that is due */
-    GM_ORDER_SPEED,    /* changes the speed by `amount` */
-    GM_ORDER_MOVE,     /* moves a parameter `amount` values up or down */
-    GM_ORDER_NUDGE,    /* moves a parameter to a nearby value */
-    GM_ORDER_STANDARD, /* resets a parameter */
-    GM_ORDER_TYPE,     /* sets a parameter to `text` */
-    GM_ORDER_SLIDE, /* sets a parameter to the part `value` of its range, 0 to 1; amount: 1 if a drag begins */
-    GM_ORDER_LOOK,  /* turns the camera by x, y degrees (azimuth, elevation), scales the zoom by `value` */
-    GM_ORDER_POINT, /* restarts from the point (x, y) of a state's panel, if the scene supports it */
-    GM_ORDER_RESTART,
-};
-
-/* size of a typed line in bytes; one more than a value may have, so that a longer one is refused */
-enum { GM_TYPED = GM_TEXT_SIZE + 1 };
-
-enum { GM_UNDOS = 32 }; /* changes that can be undone */
-
-struct gm_order {
-    enum gm_order_kind kind;
-    int amount;
-    double value, x, y;
-    char text[GM_TYPED];
-    const struct gm_parameter *row; /* of the scene or of the schemes */
-    const struct gm_scheme *scheme;
-    const struct gm_tour *tour; /* the tour outlives the worker */
-    size_t step;
-};
-
 /* A session that is played: model time follows wall time, pauses, runs ahead or back. It has no thread;
    all calls come from one thread at a time. */
 
 struct gm_play {
     struct gm_session session;
-    size_t selected;
     bool paused;
     bool behind;    /* the steps are slower than the speed requires */
     bool changed;   /* a new shot would differ */
@@ -72,10 +18,7 @@ struct gm_play {
     bool homewards; /* time is reversed; the session stops at the start */
     bool ahead;     /* the session runs ahead from `ahead_from` to `ahead_to` */
     double ahead_from, ahead_to, ahead_told;
-    bool restart; /* a restart is due */
     double restarted;
-    struct gm_order undos[GM_UNDOS]; /* what undoes the last changes; `value` is the lane, below 0: all */
-    size_t undo_count;
     double stepped;             /* seconds of steps since the last look for an engine */
     double rate;                /* measured model time per second of stepping; 0: not measured */
     int speed;                  /* the number of the speed: see gm_play_set_speed */

@@ -59,14 +59,14 @@ static void take_shot(struct gm_worker *worker)
     struct gm_shot *shot = &worker->shots[worker->filled];
     pthread_mutex_unlock(&worker->lock);
     const double begun = gm_clock_seconds();
-    gm_shot_take(shot, &play->session, play->selected, !play->ahead);
+    gm_shot_take(shot, &play->session, !play->ahead);
     shot->cost = gm_clock_seconds() - begun;
     shot->running_ahead = play->ahead;
     shot->progress = 1 - gm_play_left_until(play, play->ahead_to) / fabs(play->ahead_to - play->ahead_from);
     shot->paused = play->paused;
     shot->behind = play->behind;
     shot->speed = gm_play_speed(play);
-    shot->pace = shot->speed / fabs(play->session.lanes[play->selected]->run->dt);
+    shot->pace = shot->speed / fabs(play->session.lanes[play->session.selected]->run->dt);
     snprintf(shot->message, sizeof shot->message, "%s", play->message);
     shot->message_number = play->message_number;
     shot->recorded = capture->recorder ? gm_recorder_length(capture->recorder) : -1;

@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes that are explored: the orders of the explorer as functions, and what its screen shows as JSON. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/output/row.h"
+#include "app/output/scheme_json.h"
+#include "app/words/names.h"
+#include "app/words/words.h"
+#include "core/arena.h"
+#include "core/expression/nearest.h"
+#include "core/schemes.h"
+#include "library/handle.h"
+
+static void open_session(struct gm_arena *arena, void *data)
+{
+    char message[GM_MESSAGE];
+    struct gm_handle_words *opening = data;
+    geomint *handle = opening->handle;
+    gm_handle_read(arena, opening, GM_RENDER_SCHEMES);
+    struct gm_session *session = gm_arena_take(arena, 1, sizeof *session);
+    struct gm_shot *shot = gm_arena_take(arena, 1, sizeof *shot);
+    gm_arena_check(arena, gm_session_open(session, handle->request, message), message);
+    gm_arena_keep(arena, session, gm_session_close);
+    gm_arena_need(arena, gm_shot_open(shot));
+    handle->shot = gm_arena_keep(arena, shot, gm_shot_close);
+    handle->request = &session->log;
+    handle->session = session;
+    handle->mark = gm_arena_mark(arena);
+    gm_handle_show(handle);
+}
+
+geomint *geomint_explore(int count, const char *const words[])
+{
+    return gm_handle_open((struct gm_handle_words){.count = count, .words = words}, open_session);
+}
+
+/* ---- orders ---- */
+
+/* stands for the selected lane */
+static const size_t selected = SIZE_MAX;
+
+/* Begins a call for a lane and selects it. Returns its session, or NULL with a message. */
+static struct gm_session *begin(struct gm_call *call, geomint *handle, size_t lane)
+{
+    *call = gm_call_begin(handle);
+    if (!gm_handle_has(handle, lane == selected ? 0 : lane)) {
+        return NULL;
+    }
+    if (!handle->session) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "geomint_explore opens lanes that can be changed");
+    } else if (lane != selected) {
+        handle->session->selected = lane;
+    }
+    return handle->session;
+}
+
+static int end(const struct gm_call *call, bool made, int refusal, const char *message)
+{
+    geomint *handle = call->handle;
+    if (handle && handle->session && geomint_lanes(handle) > 0) {
+        gm_handle_show(handle);
+    }
+    if (!made && geomint_status(handle) == GEOMINT_OK) {
+        gm_handle_refuse(handle, refusal, message);
+    }
+    return gm_call_end(call);
+}
+
+/* Carries out an order, and the restart that is then due. */
+static bool obey(struct gm_session *session, const struct gm_order *order, char *message)
+{
+    return gm_session_obey(session, order, message) &&
+           (!session->restart || gm_session_restart(session, message));
+}
+
+static int act(geomint *handle, size_t lane, const struct gm_order *order)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    struct gm_session *session = begin(&call, handle, lane);
+    const bool made = session && obey(session, order, message);
+    return end(&call, made, GEOMINT_USAGE, message);
+}
+
+static int act_with_scheme(geomint *handle, size_t lane, enum gm_order_kind kind, const char *word)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    int refusal = GEOMINT_USAGE;
+    struct gm_order order = {.kind = kind};
+    struct gm_session *session = begin(&call, handle, lane);
+    bool made = session && gm_handle_given(handle, word, "scheme");
+    if (made) {
+        order.scheme = gm_scheme_sought(word, &refusal, message);
+        made = order.scheme;
+    }
+    if (made) {
+        refusal = GEOMINT_USAGE;
+        order.scheme = gm_scheme_find_for(gm_scheme_word(order.scheme), &session->lanes[lane]->problem);
+        made = obey(session, &order, message);
+    }
+    return end(&call, made, refusal, message);
+}
+
+static const char *key_at(size_t i, const void *scene)
+{
+    return ((const struct gm_scene *)scene)->parameters[i].key;
+}
+
+static int act_on_parameter(geomint *handle, size_t lane, const char *key, struct gm_order *order)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    struct gm_session *session = begin(&call, handle, lane);
+    bool made = session && gm_handle_given(handle, key, "key");
+    if (made) {
+        const struct gm_scene *scene = session->scene;
+        const char *near = gm_nearest(key, scene->parameter_count, key_at, scene);
+        order->row = gm_word_parameter(scene, key);
+        made = order->row ? obey(session, order, message)
+                          : gm_refuse(message, "there is no parameter \"%.60s\"; %s%s", key,
+                                      near ? "did you mean " : "geomint_view lists them", near ? near : "");
+    }
+    return end(&call, made, GEOMINT_USAGE, message);
+}
+
+int geomint_forward(geomint *handle)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_FORWARD});
+}
+
+int geomint_back(geomint *handle)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_BACK});
+}
+
+int geomint_reverse(geomint *handle)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_TURN});
+}
+
+int geomint_restart(geomint *handle)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_RESTART});
+}
+
+int geomint_undo(geomint *handle)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_UNDO});
+}
+
+int geomint_visit(geomint *handle, double passed)
+{
+    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_VISIT, .value = passed});
+}
+
+int geomint_advance(geomint *handle, double t)
+{
+    struct gm_call call;
+    const struct gm_session *session = begin(&call, handle, selected);
+    while (session && isfinite(t) && gm_session_advance(handle->session, t)) {
+    }
+    return end(&call, isfinite(t), GEOMINT_USAGE, "the time must be a finite number");
+}
+
+int geomint_remove(geomint *handle, size_t lane)
+{
+    return act(handle, lane, &(struct gm_order){.kind = GM_ORDER_REMOVE});
+}
+
+int geomint_switch(geomint *handle, size_t lane, const char *scheme)
+{
+    return act_with_scheme(handle, lane, GM_ORDER_SWITCH, scheme);
+}
+
+int geomint_fork(geomint *handle, size_t lane, const char *scheme)
+{
+    return act_with_scheme(handle, lane, GM_ORDER_FORK, scheme);
+}
+
+int geomint_add(geomint *handle, size_t lane, const char *scheme)
+{
+    return act_with_scheme(handle, lane, GM_ORDER_ADD, scheme);
+}
+
+int geomint_set(geomint *handle, size_t lane, const char *key, const char *value)
+{
+    struct gm_order order = {.kind = value ? GM_ORDER_TYPE : GM_ORDER_STANDARD};
+    snprintf(order.text, sizeof order.text, "%s", value ? value : "");
+    return act_on_parameter(handle, lane, key, &order);
+}
+
+int geomint_slide(geomint *handle, size_t lane, const char *key, double position)
+{
+    return act_on_parameter(handle, lane, key, &(struct gm_order){.kind = GM_ORDER_SLIDE, .value = position});
+}
+
+int geomint_press(geomint *handle, const char *key)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    struct gm_order order;
+    struct gm_session *session = begin(&call, handle, selected);
+    bool made = session && gm_handle_given(handle, key, "key");
+    if (made) {
+        made = gm_key_order(gm_key_named(key, strlen(key)), &order)
+                   ? obey(session, &order, message)
+                   : gm_refuse(message, "the key \"%.20s\" gives no order by itself", key);
+    }
+    return end(&call, made, GEOMINT_USAGE, message);
+}
+
+/* ---- texts ---- */
+
+static void put_lanes(struct gm_row *view, const struct gm_session *session, const struct gm_shot *shot)
+{
+    struct gm_row lanes = gm_row_open(view, "lanes", ']');
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        const struct gm_shot_lane *lane = &shot->lanes[i];
+        const struct gm_run *run = session->lanes[i]->run;
+        char sentence[GM_MESSAGE];
+        gm_failure_sentence(session->lanes[i], sentence, sizeof sentence);
+        struct gm_row row = gm_row_open(&lanes, NULL, '}');
+        gm_row_put(
+            &row,
+            "scheme %s, title %s, status %s, message %s, t %.17g, steps %.0f, evaluations %.0f, from_start %.17g",
+            lane->scheme->name, lane->scheme->title, gm_status_name(lane->status), sentence, lane->t,
+            (double)run->steps, gm_run_per_member(run, run->evaluations), gm_session_from_start(session, i));
+        struct gm_row values = gm_row_open(&row, "values", '}');
+        for (size_t k = 0; k < shot->observable_count; k++) {
+            if (shot->measured[k]) {
+                gm_row_number(&values, shot->scene->observables[k].key, lane->values[k], 17);
+            }
+        }
+    }
+}
+
+static void put_observables(struct gm_row *view, const struct gm_shot *shot)
+{
+    struct gm_row observables = gm_row_open(view, "observables", ']');
+    for (size_t k = 0; k < shot->observable_count; k++) {
+        const struct gm_observable *observable = &shot->scene->observables[k];
+        if (shot->measured[k]) {
+            struct gm_row row = gm_row_open(&observables, NULL, '}');
+            gm_row_put(&row, "key %s, title %s, unit %s", observable->key, observable->title,
+                       observable->unit);
+        }
+    }
+}
+
+static void put_parameters(struct gm_row *view, const struct gm_shot *shot)
+{
+    struct gm_row parameters = gm_row_open(view, "parameters", ']');
+    for (size_t k = 0; k < shot->parameter_count; k++) {
+        const struct gm_shot_parameter *parameter = &shot->parameters[k];
+        const struct gm_parameter *row = parameter->row;
+        struct gm_row one = gm_row_open(&parameters, NULL, '}');
+        gm_row_put(&one, "key %s, value %s, position %.17g, live %d, differs %d, unit %s, help %s", row->key,
+                   parameter->value, parameter->position < 0 ? NAN : parameter->position, row->live,
+                   parameter->differs, row->unit, row->help);
+        struct gm_row choices = gm_row_open(&one, "choices", ']');
+        static const char *const answers[] = {"no", "yes", NULL};
+        const char *const *choice = row->type == GM_BOOLEAN ? answers : row->choices;
+        for (; choice && *choice; choice++) {
+            gm_row_text(&choices, NULL, *choice);
+        }
+    }
+}
+
+const char *geomint_view(geomint *handle)
+{
+    struct gm_call call;
+    struct gm_text_stream writing;
+    const char *text = NULL;
+    const struct gm_session *session = begin(&call, handle, selected);
+    FILE *stream = session ? gm_stream_begin(&writing) : NULL;
+    if (stream) {
+        struct gm_shot *shot = handle->shot;
+        gm_shot_take(shot, session, false);
+        struct gm_row row = gm_row_begin(stream);
+        gm_row_put(&row, "scene %s, title %s, unit %s, t %.17g, passed %.17g, reach %.17g, ahead %.17g",
+                   shot->scene->name, shot->scene->title, shot->scene->time ? shot->scene->time : "",
+                   gm_session_time(session), shot->gone, shot->reach, shot->ahead);
+        gm_row_put(&row, "backwards %d, turned %d, overlaid %d, in_space %d, selected %i", shot->backwards,
+                   shot->turned, shot->overlaid, shot->in_space, (int)shot->selected);
+        put_lanes(&row, session, shot);
+        put_observables(&row, shot);
+        put_parameters(&row, shot);
+        gm_row_close(&row, "");
+        text = gm_handle_written(handle, &writing);
+    }
+    gm_call_end(&call);
+    return text;
+}
+
+const char *geomint_schemes(geomint *handle)
+{
+    struct gm_call call;
+    struct gm_text_stream writing;
+    const char *text = NULL;
+    const struct gm_session *session = begin(&call, handle, selected);
+    FILE *stream = session ? gm_stream_begin(&writing) : NULL;
+    if (stream) {
+        const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
+        const size_t count = gm_session_fits(session, schemes);
+        for (size_t i = 0; i < count; i++) {
+            fputc(i > 0 ? ',' : '[', stream);
+            gm_scheme_put(stream, schemes[i]);
+        }
+        fputc(']', stream);
+        text = gm_handle_written(handle, &writing);
+    }
+    gm_call_end(&call);
+    return text;
+}
