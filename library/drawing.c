@@ -118,19 +118,38 @@ static int draw_alone(struct drawing *drawing)
     return gm_call_end(&call);
 }
 
+int geomint_theme(geomint *handle, const char *name)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    const bool given = handle && gm_handle_given(handle, name, "name"), dark = given && strcmp(name, "dark") == 0;
+    if (given && !dark && strcmp(name, "light") != 0) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "a theme is light or dark");
+    } else if (given) {
+        handle->theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
+    }
+    return gm_call_end(&call);
+}
+
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba)
 {
     if (!gm_handle_given(handle, rgba, "rgba")) {
         return geomint_status(handle);
     }
-    return draw_alone(&(struct drawing){
-        .handle = handle, .look = {.width = width, .height = height, .scale = scale}, .rgba = rgba});
+    const struct gm_appearance look = {.width = width,
+                                       .height = height,
+                                       .scale = scale,
+                                       .theme = handle ? handle->theme : GM_THEME_LIGHT};
+    return draw_alone(&(struct drawing){.handle = handle, .look = look, .rgba = rgba});
 }
 
 int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title)
 {
     struct drawing drawing = {.handle = handle,
-                              .look = {.width = width, .height = height, .scale = scale, .title = title},
+                              .look = {.width = width,
+                                       .height = height,
+                                       .scale = scale,
+                                       .title = title,
+                                       .theme = handle ? handle->theme : GM_THEME_LIGHT},
                               .path = path};
     if (!gm_handle_given(handle, path, "path")) {
         return geomint_status(handle);

@@ -2,6 +2,7 @@
 /* Lanes that are explored: the orders of the explorer as functions, and what its screen shows as JSON. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/output/row.h"
@@ -312,6 +313,27 @@ const char *geomint_schemes(geomint *handle)
         fputc(']', stream);
         text = gm_handle_written(handle, &writing);
     }
+    gm_call_end(&call);
+    return text;
+}
+
+const char *geomint_commands(geomint *handle)
+{
+    struct gm_call call;
+    struct gm_text_stream writing;
+    const char *text = NULL;
+    const struct gm_session *session = begin(&call, handle, selected);
+    char *picture = session ? gm_session_picture_command(session, handle->theme) : NULL;
+    char *explorer = picture ? gm_session_explorer_command(session) : NULL;
+    FILE *stream = explorer ? gm_stream_begin(&writing) : NULL;
+    if (stream) {
+        struct gm_row row = gm_row_begin(stream);
+        gm_row_put(&row, "picture %s, explorer %s", picture, explorer);
+        gm_row_close(&row, "");
+        text = gm_handle_written(handle, &writing);
+    }
+    free(picture);
+    free(explorer);
     gm_call_end(&call);
     return text;
 }

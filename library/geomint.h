@@ -194,9 +194,14 @@ int geomint_press(geomint *handle, const char *key);
    second is an array of the schemes that fit, as geomint_text describes one. */
 const char *geomint_view(geomint *handle);
 const char *geomint_schemes(geomint *handle);
+/* The same for two command lines: "picture" draws the lanes as they are, "explorer" opens their present schemes and
+   parameters from the start. */
+const char *geomint_commands(geomint *handle);
 
 /* ---- pictures ---- */
 
+/* Chooses the colours of the pictures that follow: "light", as after opening, or "dark". */
+int geomint_theme(geomint *handle, const char *name);
 /* Draws all lanes in their current state into rgba: height rows of width * 4 bytes, the top row first; red,
    green, blue, and 255. Width and height are from 64 to 16384 pixels. A scene may show its past, so the first
    picture repeats the steps made so far in a copy of each lane. `scale` is the factor of letters and lines,

@@ -30,6 +30,7 @@ struct geomint {
     struct gm_session *session;       /* NULL: the lanes are driven one by one */
     struct gm_shot *shot;             /* the session's */
     size_t mark;                      /* in the arena, before the lanes of a session */
+    enum gm_theme theme;              /* of pictures, as pixels */
     struct gm_chosen chosen;          /* observables of a row */
     struct gm_handle_lane *lanes;
     struct gm_drive *drawn; /* a lane for each, which is recorded step by step; NULL: nothing was drawn */

@@ -463,21 +463,20 @@ at('find').onkeydown = event => {
 
 // ---- what leaves the page ----
 
-function link() {
-    return `${location.href.split('#')[0]}#${(view.words || words).map(encodeURIComponent).join('&').replace(/%2C/g, ',').replace(/%3D/g, '=')}`;
-}
+// The words of a command line, which quotes some of them for a shell.
+const unquoted = line => line.match(/(?:'[^']*'|\\.|[^\s'\\])+/g).map(word => word.replace(/'([^']*)'|\\(.)/g, '$1$2'));
 
 at('copy').onclick = async () => {
-    const address = link(), command = view.command || '';
-    const lines = [address, command].filter(Boolean).join('\n');
+    const {picture, explorer} = await ask('commands');
+    const address = `${location.href.split('#')[0]}#${unquoted(explorer).slice(1).map(encodeURIComponent).join('&').replace(/%2C/g, ',').replace(/%3D/g, '=')}`;
     let copied = true;
     try {
-        await navigator.clipboard.writeText(lines);
+        await navigator.clipboard.writeText(`${address}\n${picture}`);
     } catch (error) {
         copied = false;
     }
-    sheet(copied ? 'Copied' : 'The link and the command line', make('p', null, 'A link that opens this view:'), make('pre', {id: 'link'}, address),
-        make('p', null, 'The command line that makes this picture:'), make('pre', {id: 'command'}, command));
+    sheet(copied ? 'Copied' : 'Link and command line', make('p', null, 'A link that opens these schemes and parameters from the start:'), make('pre', {id: 'link'}, address),
+        make('p', null, 'The command line that makes this picture:'), make('pre', {id: 'command'}, picture));
 };
 
 function download(name, blob) {

@@ -192,6 +192,12 @@ const orders = {
     },
     shape(wanted) { shape = wanted; stale = true; },
     shown() { shown = true; },
+    // Answers when the page has everything.
+    async settled() {
+        while (stale || !shown) {
+            await new Promise(done => setTimeout(done, 5));
+        }
+    },
     play(wanted) {
         playing = wanted && !ended();
         setClock();
@@ -208,6 +214,7 @@ const orders = {
         stale = true;
     },
     order(values) { return order(...values); },
+    commands() { call('theme', lab, 'light'); return JSON.parse(text(call('commands', lab))); },
     certificate(name) {
         const handle = call('certify', name, []), found = text(call('text', handle)), refused = sentence(handle);
         call('close', handle);
