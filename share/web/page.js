@@ -97,7 +97,7 @@ function shape() {
     const ratio = Math.min(window.devicePixelRatio || 1, 4), box = canvas.getBoundingClientRect();
     document.documentElement.dataset.theme = isDark() ? 'dark' : 'light';
     const width = Math.max(64, Math.round(box.width * ratio)), height = Math.max(64, Math.round(box.height * ratio));
-    return ask('shape', {width, height, scale: Math.max(ratio, 0.25), dark: isDark()});
+    return ask('shape', {width, height, scale: ratio * Math.min(Math.max(box.width / 560, 0.7), 1), dark: isDark()});
 }
 
 function put(target, {width, height, rgba}) {
@@ -115,8 +115,8 @@ function say(sentence, bad) {
     say.end = setTimeout(() => line.remove(), bad ? 12000 : 7000);
 }
 
-const digits = value => value === null || value === undefined ? '–' : Math.abs(value) >= 1e5 || (value !== 0 && Math.abs(value) < 1e-3)
-    ? value.toExponential(2).replace('e+', 'e').replace('-', '−').replace('e-', 'e−') : String(+value.toPrecision(5)).replace('-', '−');
+const digits = (value, count = 5) => value === null || value === undefined ? '–' : Math.abs(value) >= 1e5 || (value !== 0 && Math.abs(value) < 1e-3)
+    ? value.toExponential(Math.min(count - 1, 2)).replace('e+', 'e').replace('-', '−').replace('e-', 'e−') : String(+value.toPrecision(count)).replace('-', '−');
 
 const failures = new Set(); // the sentences that were shown
 
@@ -140,7 +140,8 @@ function showAll(late) {
     at('play').setAttribute('aria-pressed', playing);
     at('reverse').setAttribute('aria-pressed', view.backwards);
     at('overlay').setAttribute('aria-pressed', view.overlaid);
-    at('clock').textContent = `t = ${digits(view.t)} ${view.unit}`;
+    at('clock').textContent = `t = ${digits(view.t)}`;
+    at('clock').title = view.unit;
     at('speed').textContent = `${speed}/s${late ? ', late' : ''}`;
     const line = at('line');
     line.max = Math.max(view.reach, view.passed, Number.MIN_VALUE);
@@ -199,13 +200,13 @@ function showValues() {
     const table = at('values'), turned = view.turned ? [{key: 'from_start', title: 'from start', unit: ''}] : [];
     const rows = [...view.observables, ...turned];
     renew(table, [rows, view.lanes.map(lane => lane.title), isDark()], () => [
-        make('thead', null, make('tr', null, make('th', {scope: 'col'}, ''),
-            ...view.lanes.map((lane, i) => make('th', {scope: 'col', data: {style: `--colour: ${colour(i)}`}}, lane.title)))),
-        make('tbody', null, ...rows.map(row => make('tr', null,
-            make('th', {scope: 'row'}, row.title + (row.unit && row.unit !== '1' ? ` (${row.unit})` : '')),
-            ...view.lanes.map(() => make('td')))))]);
+        make('thead', null, make('tr', null, ...view.lanes.map((lane, i) => make('th', {scope: 'col', data: {style: `--colour: ${colour(i)}`}}, lane.title)))),
+        make('tbody', null, ...rows.flatMap(row => [
+            make('tr', null, make('th', {colSpan: view.lanes.length, scope: 'rowgroup'}, row.title + (row.unit && row.unit !== '1' ? `, ${row.unit}` : ''))),
+            make('tr', null, ...view.lanes.map(() => make('td')))]))]);
     rows.forEach((row, r) => view.lanes.forEach((lane, i) => {
-        table.tBodies[0].rows[r].cells[i + 1].textContent = digits(row.key === 'from_start' ? lane.from_start : lane.values[row.key]);
+        table.tBodies[0].rows[2 * r + 1].cells[i].textContent = digits(row.key === 'from_start' ? lane.from_start : lane.values[row.key],
+            view.lanes.length > 4 ? 3 : 5);
     }));
 }
 
@@ -381,7 +382,8 @@ async function open(wanted, changes) {
     if (opened.refused) {
         return opened.refused;
     }
-    ({view, schemes, speed} = opened);
+    ({view, schemes} = opened);
+    setSpeed(opened.span / 6);
     words = wanted;
     playing = false;
     failures.clear();
@@ -436,12 +438,13 @@ addEventListener('hashchange', () => { at('tour').hidden = true; openHash(); });
 
 const play = on => { playing = on; ask('play', on); showAll(false); };
 const pauseAnd = async (...values) => { await ask('play', false); return order(...values); };
-function faster(direction) {
-    const place = Math.round(3 * Math.log10(speed)) + direction, tens = Math.floor(place / 3);
+// Sets the nearest of the speeds 1, 2, 5, 10 ... times a power of ten, or the next one to it.
+function setSpeed(wanted, direction = 0) {
+    const place = Math.round(3 * Math.log10(wanted > 0 ? wanted : 1)) + direction, tens = Math.floor(place / 3);
     speed = Number(`${[1, 2, 5][place - 3 * tens]}e${tens}`);
     ask('speed', speed);
-    showAll(false);
 }
+const faster = direction => { setSpeed(speed, direction); showAll(false); };
 at('play').onclick = () => play(!playing);
 at('back').onclick = () => pauseAnd('back');
 at('forward').onclick = () => pauseAnd('forward');
@@ -542,8 +545,7 @@ async function goTo(wanted) {
     }
     const span = Math.abs(step.until - (begins ?? view.t));
     if (span > 0 && step.seconds > 0) {
-        speed = span / step.seconds;
-        faster(0);
+        setSpeed(span / step.seconds);
     }
     showStep(false);
     if (answered && !refused) {

@@ -185,10 +185,9 @@ const orders = {
         playing = false;
         part = 0;
         look();
-        speed = Math.abs(view.ahead - view.t) / 6 || 1;
         setClock();
         stale = true;
-        return {view, schemes: JSON.parse(text(call('schemes', lab))), speed};
+        return {view, schemes: JSON.parse(text(call('schemes', lab))), span: Math.abs(view.ahead - view.t)};
     },
     shape(wanted) { shape = wanted; stale = true; },
     shown() { shown = true; },

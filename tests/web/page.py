@@ -221,7 +221,7 @@ async def other_views(port):
     page = await Page().open(port, lesson("any.html", "disc") + "#nowhere&dt=.1")
     check("unknown words in a link", "nowhere" in await page.value("at('notice').textContent"))
     check("the default view", (await page.view())["scene"] == "disc")
-    text = 'name: <img src=x onerror="document.title=1">\nabout: </script><b>\nH = p^2/2 + q^2/2\ncoordinates = q\nmomenta = p\nq = 1\np = 0\n'
+    text = 'name: <img src=x onerror="document.title=1">\nabout: </script><b>\ncoordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\n'
     with open(folder + "/mine.system", "w", encoding="utf-8") as file:
         file.write(text)
     page = await Page().open(port, lesson("mine.html", folder + "/mine.system"))
