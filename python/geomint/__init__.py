@@ -7,10 +7,12 @@
     well = geomint.system(H="p^2/2 + q^4/4 - q^2/2", q=1.5, p=0)
     geomint.run(well, scheme=["rk4", "verlet"], dt=0.1, until=1000)[1].energy_error.max()
     geomint.certify("verlet", on=well)
+    geomint.explore("kepler", scheme=["verlet", "rk4"])    # a live widget in a notebook
 
 Scenes, schemes, keys and systems are those of the program; its documentation describes them.
 """
 from ._library import ClosedError, FileError, GeomintError, UsageError, library as _c, text_of as _text_of
+from ._explore import Exploration, explore
 from ._pictures import Picture
 from ._runs import MOST_STEPS as _MOST_STEPS, Lane, Run, System, open, run, system
 from ._schemes import Certificate, Scheme, certify, scheme
@@ -47,5 +49,6 @@ def schemes() -> list:
     return _names(_c.geomint_scheme_name)
 
 
-__all__ = ["Certificate", "ClosedError", "FileError", "GeomintError", "Lane", "Picture", "Run", "Scheme", "Sweep", "System",
-           "UsageError", "certify", "open", "render", "run", "scenes", "scheme", "schemes", "sweep", "system"]
+__all__ = ["Certificate", "ClosedError", "Exploration", "FileError", "GeomintError", "Lane", "Picture", "Run", "Scheme",
+           "Sweep", "System", "UsageError", "certify", "explore", "open", "render", "run", "scenes", "scheme", "schemes",
+           "sweep", "system"]

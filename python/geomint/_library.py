@@ -42,6 +42,23 @@ int geomint_observable(geomint *handle, size_t lane, const char *key, double *va
 size_t geomint_row_size(const geomint *handle, size_t lane);
 int geomint_row(geomint *handle, size_t lane, double *t, double *values);
 int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values, size_t *made);
+geomint *geomint_explore(int count, const char *const words[]);
+int geomint_advance(geomint *handle, double t);
+int geomint_forward(geomint *handle);
+int geomint_back(geomint *handle);
+int geomint_reverse(geomint *handle);
+int geomint_visit(geomint *handle, double passed);
+int geomint_restart(geomint *handle);
+int geomint_undo(geomint *handle);
+int geomint_switch(geomint *handle, size_t lane, const char *scheme);
+int geomint_fork(geomint *handle, size_t lane, const char *scheme);
+int geomint_add(geomint *handle, size_t lane, const char *scheme);
+int geomint_remove(geomint *handle, size_t lane);
+int geomint_set(geomint *handle, size_t lane, const char *key, const char *value);
+int geomint_slide(geomint *handle, size_t lane, const char *key, double position);
+int geomint_press(geomint *handle, const char *key);
+const char *geomint_view(geomint *handle);
+const char *geomint_schemes(geomint *handle);
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);
 int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title);
 """

@@ -486,6 +486,124 @@ def test_picture_is_that_of_render(tmp_path, scene):
     assert run.picture(320, 240).png == content
 
 
+# ---- exploring
+
+def kepler(*typed, **parameters):
+    return geomint.explore("kepler", *typed, dt=0.125, eccentricity=0.5, **parameters)
+
+
+def single(scheme, steps, **parameters):
+    return geomint.open("kepler", **{"dt": 0.125, "eccentricity": 0.5, "scheme": scheme, **parameters})[0].step(steps).state
+
+
+def test_explored_lanes_are_runs():
+    lab = kepler(scheme=["verlet", "rk4"])
+    assert lab.advance(10).t == 10 and len(lab) == 2
+    assert np.array_equal(lab.state(0), single("verlet", 80)) and np.array_equal(lab.state(1), single("rk4", 80))
+    assert np.array_equal(lab.forward().state(1), single("rk4", 81))
+    assert np.array_equal(lab.back().state(1), single("rk4", 80))
+    assert lab.observe("energy_error", 1) == lab.view["lanes"][1]["values"]["energy_error"] > 0
+    assert np.array_equal(lab.picture(320, 200).rgba[..., 3], np.full((200, 320), 255))
+    assert repr(lab) == "<exploring kepler at t = 10: verlet, rk4>"
+
+
+def test_explored_lanes_fork_and_switch():
+    forked, switched = kepler(scheme="verlet").advance(5), kepler(scheme="verlet").advance(5)
+    forked.fork("rk4").advance(9)
+    switched.switch("rk4").advance(9)
+    assert np.array_equal(forked.state(1), switched.state(0)) and np.array_equal(forked.state(0), single("verlet", 72))
+    assert switched.undo().view["lanes"][0]["scheme"] == "verlet"
+    forked.add(geomint.scheme("rk2")).advance(10)
+    assert np.array_equal(forked.state(2), single("rk2", 80))
+    assert len(forked.remove(0)) == 2 and np.array_equal(forked.state(1), single("rk2", 80))
+
+
+def test_explored_time_runs_back():
+    lab = kepler(scheme="verlet").advance(8)
+    assert np.array_equal(lab.visit(3).state(), single("verlet", 24)) and lab.visit(99).t == 8
+    there = lab.reverse().advance(0).state()
+    start = lab.restart().state()
+    assert lab.t == 0 and 0 < np.abs(there - start).max() < 1e-12
+
+
+def test_explored_parameters():
+    lab = kepler(scheme="verlet").advance(2)
+    assert lab.set("dt", 0.25).forward().t == 2.25
+    lab.set("dt", 0.125).set("eccentricity", 0.25).advance(2)
+    assert np.array_equal(lab.state(), single("verlet", 16, eccentricity=0.25))
+    values = {row["key"]: row["value"] for row in lab.slide("eccentricity", 0.75).view["parameters"]}
+    assert values["eccentricity"] == "0.75"
+    assert {row["key"]: row["value"] for row in lab.set("eccentricity").view["parameters"]}["eccentricity"] != "0.75"
+    assert np.array_equal(lab.set("eccentricity", 0.5).press(".").press(".").press(",").state(), single("verlet", 1))
+    assert {"verlet", "rk4", "gauss4"} <= {scheme["scheme"] for scheme in lab.schemes}
+
+
+@pytest.mark.parametrize("verb, sentence", [
+    (lambda lab: lab.switch("midpiont"), "did you mean midpoint"),
+    (lambda lab: lab.fork("preissmann"), "does not fit"),
+    (lambda lab: lab.add("rk44"), "no scheme"),
+    (lambda lab: lab.remove(0), "The last lane stays"),
+    (lambda lab: lab.remove(-1), "no lane -1"),
+    (lambda lab: lab.set("eccentricty", 0.5), "did you mean eccentricity"),
+    (lambda lab: lab.set("eccentricity", 2), "out of range"),
+    (lambda lab: lab.slide("shape", 0.5), "has no range"),
+    (lambda lab: lab.advance(float("nan")), "finite"),
+    (lambda lab: lab.back(), "This is the start"),
+    (lambda lab: lab.undo(), "nothing to undo"),
+    (lambda lab: lab.press("space"), "explorer"),
+    (lambda lab: lab.state(3), "no lane 3"),
+    (lambda lab: geomint.explore("keplr"), "kepler"),
+])
+def test_explored_refusals(verb, sentence):
+    lab = kepler(scheme="verlet")
+    with pytest.raises(geomint.UsageError, match=sentence):
+        verb(lab)
+    assert lab.t == 0 and len(lab) == 1
+    lab.close()
+    with pytest.raises(geomint.ClosedError):
+        lab.forward()
+
+
+def test_widget():
+    """The widget's parts call the verbs."""
+    pytest.importorskip("ipywidgets")
+    lab = kepler(scheme=["verlet", "rk4"])
+    panel = lab.widget()
+
+    def click(name):
+        panel.buttons[name]._click_handlers(panel.buttons[name])
+
+    first = panel.image.value
+    assert first.startswith(b"\x89PNG")
+    click("step-forward")
+    assert lab.t == 0.125 and panel.image.value != first and panel.note.value == "t = 0.125"
+    panel.play.value = 1
+    assert lab.t > 0.125
+    panel.other.value = "midpoint"
+    click("code-fork")
+    panel.lanes.children[1].value = "gauss4"
+    assert [lane["scheme"] for lane in lab.view["lanes"]] == ["verlet", "gauss4", "midpoint"]
+    panel.sliders["eccentricity"].value = 0.25
+    assert panel.values["eccentricity"].value == "0.25" and lab.t == 0
+    click("step-backward")
+    assert panel.note.value == "This is the start."
+    click("undo")
+    assert panel.values["eccentricity"].value == "0.5"
+
+
+def test_no_widgets(capsys, monkeypatch):
+    """Without ipywidgets a sentence names it."""
+    monkeypatch.setitem(sys.modules, "ipywidgets", None)
+    with pytest.raises(ImportError, match="python3-ipywidgets"):
+        kepler().widget()
+    shown = type(sys)("IPython.display")
+    shown.display = None
+    monkeypatch.setitem(sys.modules, "IPython", type(sys)("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", shown)
+    kepler()._ipython_display_()
+    assert capsys.readouterr().out.count("\n") == 1
+
+
 def test_example_notebook():
     """The cells of the example run one after the other."""
     with open(os.path.join(SOURCE, "python", "example.ipynb"), encoding="utf-8") as file:
