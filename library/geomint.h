@@ -140,6 +140,10 @@ int geomint_row(geomint *handle, size_t lane, double *t, double *values);
 int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values,
                  size_t *made);
 
+/* Adds a change to a lane that geomint_open has opened: "scheme=rk4" or "dt=0.1" after its first `step` steps, which are
+   not made yet. Changes are added in the order of their steps, as `geomint render --changes` lists them. */
+int geomint_change(geomint *handle, size_t lane, int64_t step, const char *change);
+
 /* ---- exploring ---- */
 
 /* Opens words as the explorer does: lanes that advance together and can be changed during the run; by default with

@@ -59,6 +59,8 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
     for (int i = 0; i < words->count; i++) {
         const char *word = words->words[i], *value = gm_word_after(word, "scheme");
         if (i == 0) {
+            gm_command_end_if(lesson->options, gm_file_is(GM_FILE_ROOM, word), GM_EXIT_USAGE,
+                              "%.60s is a room; a browser has no library for its sparse equations", word);
             word = take_file(lesson, GM_FILE_SYSTEM, word);
         }
         for (const char *so_far = "scheme="; value; so_far = word) {
@@ -78,10 +80,11 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];
         struct gm_row row = gm_row_open(&steps, NULL, '}');
-        gm_row_put(&row,
-                   "title %s, say %s, ask %s, answer %s, watch %s, try %s, study %s, until %.17g, seconds %.17g",
-                   step->title, step->say, step->ask, step->answer, step->watch, step->attempt,
-                   step->study_words, step->until, step->seconds);
+        gm_row_put(
+            &row,
+            "title %s, say %s, ask %s, answer %s, watch %s, try %s, study %s, until %.17g, seconds %.17g",
+            step->title, step->say, step->ask, step->answer, step->watch, step->attempt, step->study_words,
+            step->until, step->seconds);
         if (step->show) {
             put_words(lesson, &row, "show", gm_arguments_of(lesson->options->arena, step->show));
         }
@@ -134,8 +137,8 @@ static const char *read_page(const struct gm_options *options)
         given && *given ? given : gm_arena_print(options->arena, "%s/../web/page.html", kernel);
     char *page = gm_regular_read(path, LARGEST_PAGE, &size, reason);
     gm_command_end_if(options, !page, GM_EXIT_FILE,
-                      "%.200s could not be read: %s; ./geomint setup web builds the part for the browser", path,
-                      reason);
+                      "%.200s could not be read: %s; ./geomint setup web builds the part for the browser",
+                      path, reason);
     return gm_arena_keep(options->arena, page, free);
 }
 
@@ -148,16 +151,6 @@ static void read_tour(const struct gm_options *options, struct gm_tour *tour)
     gm_command_end_if(options, !found || !gm_tour_read(tour, &file, message),
                       found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
     gm_arena_keep(options->arena, tour, gm_tour_close);
-}
-
-/* Refuses words that the program in the browser cannot run. */
-static const struct gm_scene *check(const struct gm_options *options, const struct gm_arguments *words)
-{
-    const struct gm_scene *scene =
-        gm_command_parse(options, words->count, words->words, GM_RENDER_SCHEMES)->scene;
-    gm_command_end_if(options, scene->room, GM_EXIT_USAGE,
-                      "%.60s is a room; a browser has no library for its sparse equations", scene->name);
-    return scene;
 }
 
 int gm_command_web(const struct gm_options *options)
@@ -173,7 +166,7 @@ int gm_command_web(const struct gm_options *options)
         read_tour(options, tour);
         lesson.tour = tour;
     } else if (lesson.words->count > 0) {
-        scene = check(options, lesson.words);
+        scene = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES)->scene;
     }
     lesson.title = options->look.title ? options->look.title
                    : lesson.tour       ? tour->title
@@ -192,6 +185,6 @@ int gm_command_web(const struct gm_options *options)
     const int problem = gm_temporary_write(path, text, strlen(text));
     gm_command_end_if(options, problem, GM_EXIT_FILE, "%.300s could not be written: %s", path,
                       strerror(problem));
-    gm_say("%s: %.1f MB, opens in a browser without a network", path, 1e-6 * (double)strlen(text));
+    gm_complain("wrote %s", path);
     return GM_EXIT_OK;
 }

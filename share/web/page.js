@@ -489,7 +489,10 @@ function download(name, blob) {
 }
 
 at('save').onclick = async () => {
-    const still = await ask('still'), paper = make('canvas');
+    const words = unquoted((await ask('commands')).picture).slice(2), option = words.findIndex(word => word.startsWith('--'));
+    const list = words[words.indexOf('--changes') + 1], paper = make('canvas');
+    const changes = words.includes('--changes') ? list.split(/,(?=\d+:\d+:)/).map(change => /^(\d+):(\d+):(.*)$/.exec(change)) : [];
+    const still = await ask('still', {words: words.slice(0, option), changes});
     if (still.refused) {
         say(still.refused, true);
         return;

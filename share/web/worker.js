@@ -98,21 +98,21 @@ function step() {
     stale = stale || view.t !== from || !playing;
 }
 
-function draw(width, height, scale, dark) {
+function draw(handle, width, height, scale, dark) {
     const size = 4 * width * height;
     if (size > capacity) {
         web._free(pixels);
         pixels = web.___wrap_malloc(size);
         capacity = size;
     }
-    call('theme', lab, dark ? 'dark' : 'light');
-    const status = call('draw', lab, width, height, scale, pixels);
-    const refused = status === 0 || status === 2 ? null : sentence(lab); // 2: a lane has failed, and is drawn
+    call('theme', handle, dark ? 'dark' : 'light');
+    const status = call('draw', handle, width, height, scale, pixels);
+    const refused = status === 0 || status === 2 ? null : sentence(handle); // 2: a lane has failed, and is drawn
     return {refused, width, height, rgba: web.HEAPU8.slice(pixels, pixels + size).buffer};
 }
 
 function show() {
-    const begun = performance.now(), picture = draw(shape.width, shape.height, shape.scale, shape.dark);
+    const begun = performance.now(), picture = draw(lab, shape.width, shape.height, shape.scale, shape.dark);
     shown = stale = false;
     postMessage({picture, view, playing, late, cost: performance.now() - begun}, [picture.rgba]);
 }
@@ -219,8 +219,22 @@ const orders = {
         call('close', handle);
         return found ? JSON.parse(found) : {refused};
     },
-    // The picture as `geomint render` makes it.
-    still() { return draw(1280, 720, 1, false); },
+    // The picture of a command line, `geomint render` of these words with these changes.
+    still({words, changes}) {
+        const handle = call('open', words), counted = step => [step | 0, Math.floor(step / 2 ** 32)];
+        for (const [, lane, step, change] of changes) {
+            call('change', handle, Number(lane), ...counted(Number(step)), change);
+        }
+        for (let lane = 0; lane < call('lanes', handle); lane++) {
+            // the low half of the number of steps left: 0 is the end
+            for (let left; (left = call('steps_left', handle, lane) | 0) !== 0;) {
+                call('step', handle, lane, ...counted(left < 0 ? 1000 : left));
+            }
+        }
+        const picture = draw(handle, 1280, 720, 1, false);
+        call('close', handle);
+        return picture;
+    },
 };
 
 onmessage = async ({data: {id, name, value}}) => {
