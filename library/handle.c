@@ -200,6 +200,7 @@ void geomint_close(geomint *handle)
     if (handle) {
         const struct gm_call call = gm_call_begin(handle);
         gm_arena_close(handle->arena);
+        gm_canvas_close(handle->kept.canvas);
         free(handle->text);
         gm_call_end(&call);
         free(handle);
