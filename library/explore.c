@@ -13,6 +13,7 @@
 #include "core/expression/nearest.h"
 #include "core/schemes.h"
 #include "library/handle.h"
+#include "render/layout/panel.h"
 
 static void open_session(struct gm_arena *arena, void *data)
 {
@@ -196,6 +197,33 @@ int geomint_set(geomint *handle, size_t lane, const char *key, const char *value
 int geomint_slide(geomint *handle, size_t lane, const char *key, double position)
 {
     return act_on_parameter(handle, lane, key, &(struct gm_order){.kind = GM_ORDER_SLIDE, .value = position});
+}
+
+int geomint_look(geomint *handle, double azimuth, double elevation, double zoom)
+{
+    return act(handle, selected,
+               &(struct gm_order){.kind = GM_ORDER_LOOK, .x = azimuth, .y = elevation, .value = zoom});
+}
+
+int geomint_point(geomint *handle, double across, double down)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    struct gm_session *session = begin(&call, handle, selected);
+    struct gm_canvas *canvas = session ? handle->kept.canvas : NULL;
+    struct gm_picture *picture = canvas ? gm_picture_open() : NULL;
+    bool made = true;
+    if (session && (!canvas || !session->scene->point)) {
+        made = gm_refuse(message, canvas ? "the scene has no points to start from"
+                                         : "the program's own rasteriser has drawn no picture");
+    } else if (picture) {
+        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
+        const struct gm_spot spot = gm_canvas_locate(canvas, picture, across, down);
+        const struct gm_order order = {.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y};
+        made = !spot.panel || obey(session, &order, message);
+    }
+    gm_picture_close(picture);
+    return end(&call, made, GEOMINT_USAGE, message);
 }
 
 int geomint_press(geomint *handle, const char *key)

@@ -188,6 +188,11 @@ int geomint_remove(geomint *handle, size_t lane);
    parameter acts at once; for another one all lanes restart. */
 int geomint_set(geomint *handle, size_t lane, const char *key, const char *value);
 int geomint_slide(geomint *handle, size_t lane, const char *key, double position);
+/* Restarts all lanes from a point of a phase plane or a section: at a pixel of the last picture, counted from its top
+   left corner. Without effect elsewhere in the picture. It must have been drawn by GEOMINT_PAINTER=own. */
+int geomint_point(geomint *handle, double across, double down);
+/* Turns the camera of a picture in space by degrees, and multiplies its zoom. */
+int geomint_look(geomint *handle, double azimuth, double elevation, double zoom);
 /* Presses a key that has one meaning in the explorer: ".", ",", "B", "r", "tab", "c", "x", "o", "u", "PgUp", "PgDn",
    "Home" or "End". A key acts on the selected lane: "selected" of geomint_view. */
 int geomint_press(geomint *handle, const char *key);

@@ -158,6 +158,7 @@ function showAll(late) {
             say(lane.message, true);
         }
     });
+    canvas.style.touchAction = view.in_space ? 'none' : 'pan-y'; // a vertical drag scrolls a phone's page
     canvas.setAttribute('aria-label', `${view.title}: ${view.lanes.map(lane => lane.title).join(', ')} at t = ${digits(view.t)}`);
 }
 
@@ -206,7 +207,7 @@ function showValues() {
             make('tr', null, ...view.lanes.map(() => make('td')))]))]);
     rows.forEach((row, r) => view.lanes.forEach((lane, i) => {
         table.tBodies[0].rows[2 * r + 1].cells[i].textContent = digits(row.key === 'from_start' ? lane.from_start : lane.values[row.key],
-            view.lanes.length > 4 ? 3 : 5);
+            view.lanes.length > 3 ? 3 : 5);
     }));
 }
 
@@ -300,7 +301,7 @@ function showSchemes() {
         make('button', {className: 'scheme', onclick: event => take(scheme.scheme, event.shiftKey || forking), data: {'data-scheme': scheme.scheme}, title: 'switch the chosen lane to it; with shift: fork'},
             `${scheme.title}${scheme.order ? `, order ${scheme.order}` : ''}`,
             make('span', {className: 'claims'}, scheme.claims.join(', ') || 'claims nothing but its order')),
-        make('button', {className: 'fork', textContent: '⑂', onclick: () => take(scheme.scheme, true), title: 'fork: a copy of the lane continues with it', data: {'aria-label': `fork to ${scheme.title}`}}))));
+        make('button', {className: 'fork', textContent: 'fork', onclick: () => take(scheme.scheme, true), title: 'fork: a copy of the lane continues with it', data: {'aria-label': `fork to ${scheme.title}`}}))));
     showUsed();
 }
 
@@ -463,6 +464,44 @@ at('find').onkeydown = event => {
         take(first.dataset.scheme, event.shiftKey || forking);
     }
 };
+
+// ---- the pointer: a press or a drag in a plane starts an orbit there; in space it turns the camera ----
+
+let held = null, pointed = null;
+
+async function point(event) {
+    const box = canvas.getBoundingClientRect(), scale = canvas.width / box.width, first = pointed === null;
+    const places = [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+    if (view.in_space) {
+        const degrees = 180 / box.width, turn = [degrees * (held.clientX - event.clientX), degrees * (event.clientY - held.clientY)];
+        held = event;
+        ask('order', ['look', ...turn, 1]);
+        return;
+    }
+    pointed = places;
+    while (first && pointed !== null) { // one order at a time: the last place counts
+        const place = pointed;
+        await ask('order', ['point', ...place]);
+        pointed = pointed === place ? null : pointed;
+    }
+}
+
+canvas.addEventListener('pointerdown', event => {
+    held = event;
+    canvas.setPointerCapture(event.pointerId);
+    if (!view.in_space) {
+        point(event);
+    }
+});
+canvas.addEventListener('pointermove', event => held && point(event));
+canvas.addEventListener('pointerup', () => { held = null; });
+canvas.addEventListener('pointercancel', () => { held = null; });
+canvas.addEventListener('wheel', event => {
+    if (view.in_space) {
+        event.preventDefault();
+        ask('order', ['look', 0, 0, event.deltaY < 0 ? 1.1 : 1 / 1.1]);
+    }
+}, {passive: false});
 
 // ---- what leaves the page ----
 
