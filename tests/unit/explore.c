@@ -363,6 +363,11 @@ static void pictures(void **unused)
     assert_true(before[0] != after[0]);
     geomint_close(lab);
 
+    lab = geomint_explore(WORDS("couette"));
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, light), lab);
+    expect(geomint_point(lab, 1, 1), lab, GEOMINT_USAGE, "no points");
+    geomint_close(lab);
+
     assert_int_equal(geomint_look(NULL, 1, 1, 1), GEOMINT_MEMORY);
     assert_int_equal(geomint_point(NULL, 1, 1), GEOMINT_MEMORY);
     assert_int_equal(geomint_theme(NULL, "dark"), GEOMINT_MEMORY);
