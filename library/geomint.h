@@ -223,6 +223,15 @@ int geomint_draw(geomint *handle, int width, int height, double scale, unsigned 
    scene's title; another one must not be empty or have control characters. */
 int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title);
 
+/* ---- exercises ---- */
+
+/* Grades explored lanes as the answer to an exercise: step `step`, from 1, of a tour, by its name or the path of its
+   file. Returns GEOMINT_OK if it is passed and GEOMINT_CLAIM if not; in both cases the message is the verdict. */
+int geomint_grade(geomint *handle, const char *tour, size_t step);
+/* Returns the answer as a text that `geomint grade` repeats: the tour's name, the words of the lanes, their steps and
+   changes. It is valid until the next text of the handle; NULL on failure. */
+const char *geomint_answer(geomint *handle, const char *tour, size_t step);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands around the explorer: geomint tui, geomint tour, which also lists and renders tours, and
-   geomint terminal, which reports the terminal's abilities. */
+/* The commands around the explorer: geomint tui, geomint tour, which also lists and renders tours, geomint grade,
+   which repeats an answer to an exercise, and geomint terminal, which reports the terminal's abilities. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,6 +56,10 @@ static int list_steps(const struct gm_tour *tour)
         printf("\n%zu. %s\n", i + 1, step->title);
         print_text("", step->say);
         print_text("ask", step->ask);
+        for (size_t k = 0; k < step->expectation_count; k++) {
+            print_text("expect", step->expectations[k].text);
+        }
+        print_text("hint", step->hint);
         print_text("answer", step->answer);
         print_text("watch", step->watch);
         print_text("try", step->attempt);
@@ -128,6 +132,33 @@ int gm_command_tour(const struct gm_options *options)
     }
     const bool moving = options->pace.movie || options->out;
     return moving ? make_movie(tour, options) : explore(options, "tour", NULL, tour);
+}
+
+int gm_command_grade(const struct gm_options *options)
+{
+    enum { MOST_BYTES = 1 << 16 };
+    char message[GM_MESSAGE];
+    char *const *words = options->arguments.words;
+    struct gm_file file = {0};
+    size_t size = 0;
+    gm_command_end_if(
+        options, options->arguments.count < 1 || options->arguments.count > 2, GM_EXIT_USAGE,
+        "grade takes a file that S in an exercise of `geomint tour` has saved, and the tour if it is "
+        "not the file's own");
+    snprintf(file.path, sizeof file.path, "%s", words[0]);
+    char *text = gm_file_read(&file, MOST_BYTES, &size, message);
+    gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
+    gm_arena_keep(options->arena, text, free);
+    gm_catch_interrupts();
+    const int status = gm_answer_grade(text, size, words[1], message);
+    if (gm_interrupted) {
+        return GM_EXIT_INTERRUPTED;
+    }
+    if (status != GM_EXIT_OK && status != GM_EXIT_CLAIM) {
+        return gm_give_up(status, "%.200s: %s", words[0], message);
+    }
+    puts(message);
+    return status;
 }
 
 int gm_command_terminal(const struct gm_options *options)

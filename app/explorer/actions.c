@@ -201,6 +201,20 @@ static void go_in_tour(struct gm_explorer *explorer, const struct key *key)
     }
 }
 
+/* Shows the hint of an exercise, or saves its answer. */
+static void work_on_exercise(struct gm_explorer *explorer, const struct key *key)
+{
+    struct gm_guide *guide = &explorer->open.guide;
+    if (!guide->tour || guide->tour->steps[guide->step].expectation_count == 0) {
+        return;
+    }
+    if (key->code == 'H') {
+        guide->hinted = true;
+    } else {
+        order(explorer, key);
+    }
+}
+
 /* ---- the table ---- */
 
 enum { CODES = 4 };

@@ -46,6 +46,7 @@ enum gm_order_kind {
     GM_ORDER_HALT,   /* stops running ahead */
     GM_ORDER_SAVE,   /* saves a PNG; amount: the theme, as for GM_ORDER_RECORD and GM_ORDER_TELL */
     GM_ORDER_SYSTEM, /* saves the user-defined system to a file */
+    GM_ORDER_ANSWER, /* grades an exercise, and saves its answer to a file */
     GM_ORDER_RECORD, /* starts a movie of the screen, or finishes it */
     GM_ORDER_TOUR,   /* plays a tour's step; amount is 1 if it waits at its start */
     GM_ORDER_RUN,    /* resumes if paused */
@@ -244,6 +245,8 @@ struct gm_shot {
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
     double recorded;              /* seconds of the movie so far; below 0: none is made */
+    char verdict[GM_MESSAGE];     /* on the exercise of a tour; "": none */
+    bool passed;                  /* the exercise is passed */
     char *commands[GM_COMMANDS];  /* commands that reproduce a view; NULL: out of memory */
     unsigned long command_number; /* changes with every one */
 };

@@ -22,14 +22,33 @@
 
 enum { MOST_BYTES = 1 << 20, MOST_STEPS = 60, MOST_SCHEMES = 3 };
 
-enum word { TITLE, ABOUT, PLACE, STEP, SAY, ASK, ANSWER, SHOW, UNTIL, SECONDS, AT, STUDY, WATCH, TRY, WORDS };
+enum word {
+    TITLE,
+    ABOUT,
+    PLACE,
+    STEP,
+    SAY,
+    ASK,
+    ANSWER,
+    EXPECT,
+    HINT,
+    SHOW,
+    UNTIL,
+    SECONDS,
+    AT,
+    STUDY,
+    WATCH,
+    TRY,
+    WORDS
+};
 
 static const struct gm_line_word lines[WORDS] = {
-    {"title", GM_LINE_ADDED, 0},   {"about", GM_LINE_ADDED, 0}, {"place", GM_LINE_ADDED, 0},
-    {"step", GM_LINE_ADDED, 0},    {"say", GM_LINE_ADDED, 0},   {"ask", GM_LINE_ADDED, 0},
-    {"answer", GM_LINE_ADDED, 0},  {"show", GM_LINE_ADDED, 0},  {"until", GM_LINE_ADDED, 0},
-    {"seconds", GM_LINE_ADDED, 0}, {"at", GM_LINE_ADDED, 0},    {"study", GM_LINE_ADDED, 0},
-    {"watch", GM_LINE_ADDED, 0},   {"try", GM_LINE_ADDED, 0}};
+    {"title", GM_LINE_ADDED, 0},  {"about", GM_LINE_ADDED, 0},  {"place", GM_LINE_ADDED, 0},
+    {"step", GM_LINE_ADDED, 0},   {"say", GM_LINE_ADDED, 0},    {"ask", GM_LINE_ADDED, 0},
+    {"answer", GM_LINE_ADDED, 0}, {"expect", GM_LINE_ADDED, 0}, {"hint", GM_LINE_ADDED, 0},
+    {"show", GM_LINE_ADDED, 0},   {"until", GM_LINE_ADDED, 0},  {"seconds", GM_LINE_ADDED, 0},
+    {"at", GM_LINE_ADDED, 0},     {"study", GM_LINE_ADDED, 0},  {"watch", GM_LINE_ADDED, 0},
+    {"try", GM_LINE_ADDED, 0}};
 static const struct gm_line_words line_words = {"a tour", lines, WORDS, "; docs/tours.md names them", 0};
 
 struct entry {
@@ -211,6 +230,30 @@ static void read_change(const struct reader *reader, const struct entry *entry,
     step->changes[step->change_count++] = change;
 }
 
+/* Reads the conditions of an exercise. */
+static void read_expectations(const struct reader *reader, const struct entry *entries, size_t count,
+                              struct gm_tour_step *step)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct entry *entry = &entries[i];
+        if (entry->word != EXPECT) {
+            continue;
+        }
+        struct gm_fault fault = {0};
+        refuse_if(reader, !step->show || !step->ask || step->study_words, entry->line,
+                  "expect: needs show: and ask:, and no study:");
+        if (!gm_expectation_read(reader->arena, step->request.scene, entry->text,
+                                 &step->expectations[step->expectation_count++], &fault)) {
+            char message[GM_MESSAGE];
+            gm_refuse(message, "%.200s", fault.sentence);
+            gm_place_show(entry->text, strlen(entry->text), fault.offset, message);
+            refuse_if(reader, true, entry->line, "%s", message);
+        }
+    }
+    refuse_if(reader, step->hint && step->expectation_count == 0, entries[0].line,
+              "hint: is for an exercise, which has expect:");
+}
+
 static int by_time(const void *a, const void *b)
 {
     const struct gm_tour_change *x = a, *y = b;
@@ -221,8 +264,8 @@ static int by_time(const void *a, const void *b)
 static void take_entry(const struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
 {
     char **const places[WORDS] = {
-        [STEP] = &step->title, [SAY] = &step->say,     [ASK] = &step->ask,    [ANSWER] = &step->answer,
-        [SHOW] = &step->show,  [WATCH] = &step->watch, [TRY] = &step->attempt};
+        [STEP] = &step->title, [SAY] = &step->say,     [ASK] = &step->ask,     [ANSWER] = &step->answer,
+        [SHOW] = &step->show,  [WATCH] = &step->watch, [TRY] = &step->attempt, [HINT] = &step->hint};
     if (entry->word == UNTIL) {
         step->until = read_number(reader, entry);
     } else if (entry->word == SECONDS) {
@@ -232,7 +275,7 @@ static void take_entry(const struct reader *reader, const struct entry *entry, s
     } else if (entry->word == STUDY) {
         refuse_if(reader, step->study_words, entry->line, "study: is given twice");
         read_study(reader, entry, step);
-    } else if (entry->word != AT) {
+    } else if (entry->word != AT && entry->word != EXPECT) {
         refuse_if(reader, !places[entry->word], entry->line,
                   "%s: belongs before the first step:", lines[entry->word].word);
         take_text(reader, entry, places[entry->word]);
@@ -285,6 +328,8 @@ static void read_step(const struct reader *reader, const struct entry *entries, 
         refuse_if(reader, !(t >= begin && t < step->until), entries[i].line,
                   "at: %g lies outside of what the step shows, %g to %g", t, begin, step->until);
     }
+    step->expectations = gm_arena_take(reader->arena, count, sizeof *step->expectations);
+    read_expectations(reader, entries, count, step);
     if (step->change_count > 1) {
         qsort(step->changes, step->change_count, sizeof *step->changes, by_time);
     }

@@ -5,6 +5,7 @@
 #include "app/grid/grid.h"
 #include "app/runs/session.h"
 #include "app/words/request.h"
+#include "core/expression/reader.h"
 #include "render/layout/appearance.h"
 
 /* A tour: steps for a class, read from a text file that a teacher can write (docs/tours.md). Texts of one
@@ -19,14 +20,28 @@ struct gm_tour_change {
     char *text; /* "scheme=midpoint", "dt=0.1" */
 };
 
+/* A condition that a lane must meet at the end of an exercise. */
+enum { GM_MOST_NAMES = 16 };
+struct gm_expectation {
+    char *text; /* "energy_error < 1e-6" */
+    struct gm_formula graph;
+    gm_node_id node; /* 1 if it is met, else 0 */
+    size_t names
+        [GM_MOST_NAMES]; /* numbers of names; variable i of the graph is the value of the name names[i] */
+    size_t count;
+};
+
 struct gm_tour_step {
     char *title;
-    char *say;     /* the subject of the step */
-    char *ask;     /* a question to answer before it runs; NULL: none */
-    char *answer;  /* the answer to the question */
-    char *watch;   /* a hint for watching, or NULL */
-    char *attempt; /* a suggestion to try, or NULL */
-    char *show;    /* the arguments of `request`; NULL: the step continues from the end of the one before */
+    char *say;    /* the subject of the step */
+    char *ask;    /* a question to answer before it runs, or the task of an exercise; NULL: none */
+    char *answer; /* the answer to the question; of an exercise shown when it is passed */
+    char *hint;   /* a hint for an exercise, or NULL */
+    struct gm_expectation *expectations;
+    size_t expectation_count; /* 0: the step is not an exercise */
+    char *watch;              /* a hint for watching, or NULL */
+    char *attempt;            /* a suggestion to try, or NULL */
+    char *show; /* the arguments of `request`; NULL: the step continues from the end of the one before */
     struct gm_request request;
     double until;                   /* model time to run to */
     double seconds;                 /* time for watching the run */
@@ -58,6 +73,28 @@ void gm_tour_close(void *tour);
 size_t gm_tour_first(const struct gm_tour *tour, size_t step);
 /* The model time at which a step's display begins. */
 double gm_tour_begin(const struct gm_tour *tour, size_t step);
+
+/* ---- exercises ---- */
+
+/* Reads a condition on the lanes of a scene. Returns false with a fault. Everything is the arena's. */
+bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, char *text,
+                         struct gm_expectation *expectation, struct gm_fault *fault);
+
+/* Returns true if a lane of this request passes the exercise as it is now: it has reached the step's end, meets all
+   expectations, and differs from what the step shows in schemes, the step size and named parameters alone. The
+   sentence (GM_MESSAGE bytes) gives the reason. */
+bool gm_exercise_passed(const struct gm_tour_step *step, const struct gm_request *request,
+                        const struct gm_lane *const *lanes, char *sentence);
+
+/* An answer to an exercise is text of at most this size: what was done, which can be repeated. */
+enum { GM_MOST_ANSWER = 2048 };
+/* Writes the answer; malloc'ed. Returns NULL when out of memory. */
+char *gm_answer_write(const struct gm_tour *tour, size_t step, const struct gm_request *request,
+                      const struct gm_lane *const *lanes);
+/* Repeats an answer and grades it, with the tour that a word means (NULL: the answer's own). Returns the exit status:
+   GM_EXIT_OK if it is passed, GM_EXIT_CLAIM if not, another one if it cannot be repeated; always with a sentence
+   (GM_MESSAGE bytes). */
+int gm_answer_grade(const char *text, size_t size, const char *tour, char *sentence);
 
 /* ---- the places of tours ---- */
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._library import ClosedError, UsageError, characters, check, ffi, library, owned, text_of, words_of
+from ._library import OK, ClosedError, UsageError, characters, check, ffi, library, owned, text_of, words_of
 from ._pictures import Picture, Pictured
 from ._words import value_text, words
 
@@ -143,6 +143,21 @@ class Exploration(Pictured):
         value = ffi.new("double *")
         self._do(library.geomint_observable, _number(lane), characters(key), value)
         return value[0]
+
+    # ---- exercises
+
+    def grade(self, tour: str, step: int) -> tuple[bool, str]:
+        """Whether the lanes pass an exercise of a tour, by its name or path, steps counted from 1; and the verdict."""
+        with self._turn:
+            status = check(self._handle, self._call(library.geomint_grade, characters(tour), _number(step)))
+            return status == OK, text_of(library.geomint_message(self._handle))
+
+    def answer(self, tour: str, step: int) -> str:
+        """The text of the answer, which `geomint grade FILE.answer` repeats."""
+        with self._turn:
+            text = text_of(self._call(library.geomint_answer, characters(tour), _number(step)))
+            check(self._handle)
+        return text
 
     def picture(self, width: int = 1280, height: int = 720, scale: float = 1.0, title: str | None = None) -> Picture:
         """The picture of all lanes as they are now."""

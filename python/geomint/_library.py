@@ -59,6 +59,8 @@ int geomint_slide(geomint *handle, size_t lane, const char *key, double position
 int geomint_press(geomint *handle, const char *key);
 const char *geomint_view(geomint *handle);
 const char *geomint_schemes(geomint *handle);
+int geomint_grade(geomint *handle, const char *tour, size_t step);
+const char *geomint_answer(geomint *handle, const char *tour, size_t step);
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);
 int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title);
 """

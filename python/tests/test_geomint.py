@@ -538,6 +538,25 @@ def test_explored_parameters():
     assert {"verlet", "rk4", "gauss4"} <= {scheme["scheme"] for scheme in lab.schemes}
 
 
+def test_exercise(tmp_path):
+    lab = geomint.explore("disc", scheme="rk4", dt=1).advance(62)
+    passed, verdict = lab.grade("exercises", 1)
+    assert not passed and verdict.startswith("Not passed: RK4 misses area_error < 1e-10")
+    lab.switch("verlet").restart().advance(62)
+    assert lab.grade("exercises", 1) == (True, "Passed with Verlet: area_error = 2.20872e-16, energy_error = 0.25, evaluations = 63.")
+    answer = lab.answer("exercises", 1)
+    assert "\nsteps: 62\n" in answer and len(answer) < 200
+    if "GEOMINT_PROGRAM" in os.environ:  # the program has the same verdict
+        (tmp_path / "x.answer").write_text(answer)
+        done = subprocess.run([os.environ["GEOMINT_PROGRAM"], "grade", tmp_path / "x.answer"], capture_output=True, text=True)
+        assert (done.returncode, done.stdout.strip()) == (0, lab.grade("exercises", 1)[1])
+    for tour, step, sentence in (("exercizes", 1, "exercises"), ("exercises", 9, "is a step"), ("area", 1, "is a step")):
+        with pytest.raises(geomint.UsageError, match=sentence):
+            lab.grade(tour, step)
+        with pytest.raises(geomint.UsageError, match=sentence):
+            lab.answer(tour, step)
+
+
 @pytest.mark.parametrize("verb, sentence", [
     (lambda lab: lab.switch("midpiont"), "did you mean midpoint"),
     (lambda lab: lab.fork("preissmann"), "does not fit"),

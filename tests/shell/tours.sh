@@ -32,7 +32,7 @@ for file in "$tours"/*.tour; do
     name=$(basename "$file" .tour)
     steps=$(grep -c '^step:' "$file")
     questions=$(grep -c '^ask:' "$file")
-    if [ "$steps" -lt 5 ] || [ "$steps" -gt 10 ]; then
+    if [ "$steps" -lt 4 ] || [ "$steps" -gt 10 ]; then
         fail "$name has $steps steps"
     fi
     "$geomint" tour "$name" --list >text || fail "$name: --list"

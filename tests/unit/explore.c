@@ -378,13 +378,39 @@ static void pictures(void **unused)
     free(again);
 }
 
+/* An exercise is graded as `geomint grade` does it. */
+static void exercises_are_graded(void **unused)
+{
+    (void)unused;
+    geomint *lab = geomint_explore(WORDS("disc", "scheme=rk4", "dt=1"));
+    good(geomint_advance(lab, 62), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM,
+           "Not passed: RK4 misses area_error < 1e-10");
+    good(geomint_switch(lab, 0, "verlet"), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "Verlet, after RK4 misses");
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 1), "change: 0 62 scheme=verlet\n"));
+    good(geomint_restart(lab), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "is at t = 0");
+    good(geomint_advance(lab, 62), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_OK, "Passed with Verlet");
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 1), "steps: 62\n"));
+    expect(geomint_grade(lab, "exercises", 5), lab, GEOMINT_USAGE, "is a step");
+    expect(geomint_grade(lab, "area", 1), lab, GEOMINT_USAGE, "is a step");
+    expect(geomint_grade(lab, "/nowhere/x.tour", 1), lab, GEOMINT_FILE, "x.tour");
+    expect(geomint_grade(lab, NULL, 1), lab, GEOMINT_USAGE, "tour is NULL");
+    assert_null(geomint_answer(lab, "exercises", 0));
+    assert_int_equal(geomint_grade(NULL, "exercises", 1), GEOMINT_MEMORY);
+    geomint_close(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lanes_advance),      cmocka_unit_test(forks_and_switches),
         cmocka_unit_test(time_goes_back),     cmocka_unit_test(parameters_are_set),
         cmocka_unit_test(lanes_come_and_go),  cmocka_unit_test(keys_are_pressed),
-        cmocka_unit_test(texts_and_failures), cmocka_unit_test(pictures),
+        cmocka_unit_test(texts_and_failures), cmocka_unit_test(exercises_are_graded),
+        cmocka_unit_test(pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

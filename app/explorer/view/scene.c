@@ -280,7 +280,9 @@ enum { MOST_ROWS = 100, LEAST_HEIGHT = 8 };
 
 struct gm_guide gm_guide_at(const struct gm_tour *tour, size_t step)
 {
-    return (struct gm_guide){.tour = tour, .step = step, .answered = !tour->steps[step].ask};
+    return (struct gm_guide){.tour = tour,
+                             .step = step,
+                             .answered = !tour->steps[step].ask || tour->steps[step].expectation_count > 0};
 }
 
 /* Draws a mark such as "Watch:" before a text (NULL: neither); returns the rows. */
@@ -293,10 +295,27 @@ static int draw_marked(const struct gm_sheet *sheet, int row, const char *mark, 
     return gm_sheet_wrapped(sheet, gm_sheet_width(sheet, mark) + 1, row, MOST_ROWS, text, GM_INK);
 }
 
-/* Draws the paragraphs below row 0; returns the row after them. */
-static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide)
+/* Draws the paragraphs of an exercise from a row on; returns the row after them. */
+static int draw_exercise(const struct gm_sheet *sheet, int row, const struct gm_guide *guide,
+                         const struct gm_shot *shot)
 {
     const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    const char *mark = shot->passed ? "Passed" : "Not passed:";
+    const char *verdict = shot->verdict[0] ? shot->verdict + strlen(mark) + 1 : NULL;
+    row += draw_marked(sheet, row, "Task:", step->ask);
+    row += draw_marked(sheet, row, mark, verdict);
+    row += draw_marked(sheet, row, "Hint:", guide->hinted && !shot->passed ? step->hint : NULL);
+    return row + draw_marked(sheet, row, "Answer:", shot->passed ? step->answer : NULL);
+}
+
+/* Draws the paragraphs below row 0; returns the row after them. */
+static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide, const struct gm_shot *shot)
+{
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    if (step->expectation_count > 0) {
+        const int row = 1 + gm_sheet_wrapped(sheet, 0, 1, MOST_ROWS, step->say, GM_INK);
+        return draw_exercise(sheet, row, guide, shot);
+    }
     const char *first = step->ask && guide->answered ? step->answer : step->say;
     int row = 1;
     row += gm_sheet_wrapped(sheet, 0, row, MOST_ROWS, first, GM_INK);
@@ -314,7 +333,10 @@ static int draw_guide_keys(const struct gm_sheet *sheet, const struct gm_guide *
     char hints[64];
     const bool on = !guide->answered || guide->step + 1 < guide->tour->count;
     const char *forward = guide->answered ? "n:next|" : "n:answer|";
-    snprintf(hints, sizeof hints, "%s%sa:again", on ? forward : "", guide->step > 0 ? "N:back|" : "");
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    const bool exercise = step->expectation_count > 0;
+    snprintf(hints, sizeof hints, "%s%s%s%s", on ? forward : "", guide->step > 0 ? "N:back|" : "",
+             exercise && step->hint ? "H:hint|" : "", exercise ? "r:restart|S:save answer" : "a:again");
     const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
     for (int i = gm_sheet_hints(&nothing, 1, hints) - 2; i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
@@ -322,7 +344,7 @@ static int draw_guide_keys(const struct gm_sheet *sheet, const struct gm_guide *
     return gm_sheet_hints(sheet, 1, hints);
 }
 
-static void draw_guide(const struct gm_sheet *sheet, const struct gm_guide *guide)
+static void draw_guide(const struct gm_sheet *sheet, const struct gm_guide *guide, const struct gm_shot *shot)
 {
     const struct gm_tour *tour = guide->tour;
     char text[256];
@@ -338,7 +360,7 @@ static void draw_guide(const struct gm_sheet *sheet, const struct gm_guide *guid
     const struct gm_sheet head = gm_sheet_part(sheet, 0, 0, begin > 1 ? begin - 1 : 0, 1);
     gm_sheet_text(&head, 1, 0, text, GM_INK, true);
     const struct gm_sheet body = gm_sheet_part(sheet, 1, 0, sheet->width - 2, sheet->height);
-    if (draw_texts(&body, guide) > sheet->height) {
+    if (draw_texts(&body, guide, shot) > sheet->height) {
         gm_sheet_text(&body, body.width - 1, body.height - 1, "…", GM_INK, true);
     }
 }
@@ -439,10 +461,10 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
     rows = asked ? cells->rows - asked : rows;
     if (face->guide && !asked) {
         const struct gm_sheet nothing = gm_sheet_part(&whole, 0, 0, whole.width - 2, 0);
-        const int wanted = draw_texts(&nothing, face->guide), most = whole.height * 2 / 5;
+        const int wanted = draw_texts(&nothing, face->guide, shot), most = whole.height * 2 / 5;
         const int told = whole.height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
         const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows - told, cells->columns, told);
-        draw_guide(&panel, face->guide);
+        draw_guide(&panel, face->guide, shot);
         rows -= told;
     }
     if (face->studies && face->studies->shown != GM_STUDY_NONE) {

@@ -13,6 +13,7 @@ struct gm_guide {
     const struct gm_tour *tour;
     size_t step;
     bool answered; /* the step's question is answered, or it has none */
+    bool hinted;   /* the hint of an exercise is shown */
 };
 
 /* Returns a guide at the start of a step of the tour. */

@@ -137,6 +137,23 @@ bool gm_capture_save_system(const struct gm_play *play, char *sentence)
                                   error == ENOMEM ? "not enough memory" : strerror(error));
 }
 
+bool gm_capture_save_answer(const struct gm_play *play, char *sentence)
+{
+    const struct gm_session *session = &play->session;
+    const struct gm_agenda *agenda = &play->agenda;
+    char path[128];
+    char *text = gm_answer_write(agenda->tour, agenda->step, &session->log,
+                                 (const struct gm_lane *const *)session->lanes);
+    gm_folder_free_file(agenda->tour->name, ".answer", path, sizeof path);
+    const bool fits = !text || strlen(text) <= GM_MOST_ANSWER;
+    const int error = !text ? ENOMEM : fits ? gm_temporary_write(path, text, strlen(text)) : E2BIG;
+    free(text);
+    return error == 0 ? gm_refuse(sentence, "Saved %.100s: geomint grade %.100s repeats it.", path, path)
+           : !fits    ? gm_refuse(sentence, "Not saved: restart with r and change less during the run.")
+                      : gm_refuse(sentence, "Not saved: %.400s: %.60s", path,
+                               error == ENOMEM ? "not enough memory" : strerror(error));
+}
+
 /* ---- the movie ---- */
 
 bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)

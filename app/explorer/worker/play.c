@@ -104,6 +104,17 @@ double gm_play_left_until(const struct gm_play *play, double t)
     return (t - gm_session_time(&play->session)) * gm_session_direction(&play->session);
 }
 
+/* Grades the lanes as they are now, if the step of the tour is an exercise. */
+static void grade(struct gm_play *play)
+{
+    const struct gm_session *session = &play->session;
+    const struct gm_tour_step *step = &play->agenda.tour->steps[play->agenda.step];
+    if (step->expectation_count > 0) {
+        play->passed = gm_exercise_passed(step, &session->log, (const struct gm_lane *const *)session->lanes,
+                                          play->verdict);
+    }
+}
+
 bool gm_play_keep_agenda(struct gm_play *play)
 {
     char message[GM_MESSAGE] = "";
@@ -119,6 +130,7 @@ bool gm_play_keep_agenda(struct gm_play *play)
         play->paused = true;
         play->ahead = false;
         play->changed = true;
+        grade(play);
         set_clock(play, gm_session_time(&play->session));
     }
     return gm_agenda_limit(&play->agenda) > limit;
@@ -380,12 +392,21 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
     case GM_ORDER_SYSTEM:
         gm_capture_save_system(play, message);
         break;
+    case GM_ORDER_ANSWER:
+        grade(play);
+        gm_capture_save_answer(play, message);
+        break;
     case GM_ORDER_TOUR:
         play_tour_step(play, order->tour, order->step, order->amount != 0);
         break;
     default:
         play->paused = play->paused || order->kind == GM_ORDER_FORWARD || order->kind == GM_ORDER_BACK ||
                        order->kind == GM_ORDER_VISIT;
+        if (order->kind != GM_ORDER_SELECT && order->kind != GM_ORDER_OVERLAY &&
+            order->kind != GM_ORDER_LOOK) {
+            play->verdict[0] = '\0';
+            play->passed = false;
+        }
         gm_session_obey(session, order, message);
     }
     if (message[0]) {

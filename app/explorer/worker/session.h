@@ -25,6 +25,8 @@ struct gm_play {
     double clock_t, clock_wall; /* model time and wall time (s) at the last change of pace */
     size_t frozen;              /* number of frozen lanes */
     struct gm_agenda agenda;    /* the agenda of the tour's step */
+    char verdict[GM_MESSAGE];   /* on the exercise of the tour's step; "": none */
+    bool passed;
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
 };
@@ -75,6 +77,8 @@ void gm_capture_close(struct gm_capture *capture);
 /* These return false with a sentence (GM_MESSAGE bytes) for the status line, also on success. */
 /* Saves the played system to a file; true without a sentence if it is not user-defined. */
 bool gm_capture_save_system(const struct gm_play *play, char *sentence);
+/* Saves the answer to the exercise that is played. */
+bool gm_capture_save_answer(const struct gm_play *play, char *sentence);
 /* Saves the picture as PNG to the working directory. */
 bool gm_capture_save(struct gm_play *play, enum gm_theme theme, char *sentence);
 /* Starts the movie, or finishes it. */

@@ -67,6 +67,8 @@ static void take_shot(struct gm_worker *worker)
     shot->behind = play->behind;
     shot->speed = gm_play_speed(play);
     shot->pace = shot->speed / fabs(play->session.lanes[play->session.selected]->run->dt);
+    snprintf(shot->verdict, sizeof shot->verdict, "%s", play->verdict);
+    shot->passed = play->passed;
     snprintf(shot->message, sizeof shot->message, "%s", play->message);
     shot->message_number = play->message_number;
     shot->recorded = capture->recorder ? gm_recorder_length(capture->recorder) : -1;
@@ -112,7 +114,7 @@ static void release(struct gm_worker *worker)
 
 static bool is_owed(const struct gm_order *order)
 {
-    return order->kind == GM_ORDER_SAVE || order->kind == GM_ORDER_SYSTEM;
+    return order->kind == GM_ORDER_SAVE || order->kind == GM_ORDER_SYSTEM || order->kind == GM_ORDER_ANSWER;
 }
 
 /* Called with the lock held; releases it while the order is carried out. */

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exercises of tours: the conditions that a lane must meet. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/base/arguments.h"
+#include "app/tours/tour.h"
+#include "app/words/drive.h"
+#include "core/arena.h"
+#include "core/theory/certify.h"
+
+/* ---- the names of a condition ---- */
+
+enum { TIME, STEPS, EVALUATIONS, ORDER, CERTIFIED, TYPED, FIXED };
+static const char *const fixed[FIXED] = {
+    [TIME] = "t",      [STEPS] = "steps",         [EVALUATIONS] = "evaluations",
+    [ORDER] = "order", [CERTIFIED] = "certified", [TYPED] = "typed"};
+
+/* Names are numbered: the fixed ones, claims, parameters of the scene and of schemes, observables. */
+struct names {
+    const struct gm_scene *scene;
+    char claims[GM_CLAIM_COUNT][40]; /* "keeps_energy" */
+    struct gm_expectation *expectation;
+};
+
+static const struct gm_parameter *row_of(const struct gm_scene *scene, size_t name)
+{
+    const size_t first = FIXED + GM_CLAIM_COUNT, settings = first + scene->parameter_count;
+    return name < first                                    ? NULL
+           : name < settings                               ? &scene->parameters[name - first]
+           : name < settings + gm_settings_parameter_count ? &gm_settings_parameters[name - settings]
+                                                           : NULL;
+}
+
+static size_t observable_of(const struct gm_scene *scene, size_t name)
+{
+    return name - FIXED - GM_CLAIM_COUNT - scene->parameter_count - gm_settings_parameter_count;
+}
+
+static const char *name_at(size_t i, const void *data)
+{
+    const struct names *names = data;
+    const struct gm_parameter *row = row_of(names->scene, i);
+    if (row || i < FIXED + GM_CLAIM_COUNT) {
+        return row ? row->key : i < FIXED ? fixed[i] : names->claims[i - FIXED];
+    }
+    const struct gm_observable *observable =
+        gm_scene_observable_at(names->scene, observable_of(names->scene, i));
+    return observable ? observable->key : NULL;
+}
+
+static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    struct names *names = data;
+    struct gm_expectation *expectation = names->expectation;
+    size_t number = 0, at = 0;
+    const char *known;
+    while ((known = name_at(number, names)) &&
+           !gm_text_same(known, strlen(known), name->text, name->length)) {
+        number++;
+    }
+    if (!known || name->indexed || name->initial) {
+        return GM_UNKNOWN;
+    }
+    while (at < expectation->count && expectation->names[at] != number) {
+        at++;
+    }
+    if (at == GM_MOST_NAMES) {
+        gm_refuse(sentence, "a condition has at most %d names", GM_MOST_NAMES);
+        return GM_REFUSED;
+    }
+    expectation->names[at] = number;
+    expectation->count += at == expectation->count;
+    *node = gm_formula_variable(&expectation->graph, at);
+    return GM_KNOWN;
+}
+
+bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, char *text,
+                         struct gm_expectation *expectation, struct gm_fault *fault)
+{
+    struct names *names = gm_arena_take(arena, 1, sizeof *names);
+    *names = (struct names){.scene = scene, .expectation = expectation};
+    for (size_t i = 0; i < GM_CLAIM_COUNT; i++) {
+        snprintf(names->claims[i], sizeof names->claims[i], "%s", gm_claims[i].key);
+        for (char *at = names->claims[i]; (at = strpbrk(at, " -"));) {
+            *at = '_';
+        }
+    }
+    const struct gm_scope scope = {.find = find_name, .known = name_at, .data = names, .is_condition = true};
+    expectation->text = text;
+    gm_formula_open(&expectation->graph);
+    gm_arena_keep(arena, &expectation->graph, gm_formula_close);
+    return gm_formula_read(&expectation->graph, text, 0, strlen(text), &scope, &expectation->node, fault);
+}
+
+/* ---- grading ---- */
+
+/* Returns the least value that measurement gives for the schemes of a lane. */
+static double certified_value(const struct gm_lane *lane, size_t name)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i <= lane->switch_count; i++) {
+        const struct gm_scheme *scheme = gm_lane_scheme_after(lane, i);
+        double value = scheme->word != NULL;
+        if (name != TYPED) {
+            const struct gm_certificate certificate = gm_certify(scheme);
+            value = name == ORDER       ? certificate.order
+                    : name == CERTIFIED ? certificate.holds
+                                        : certificate.claims[name - FIXED].holds;
+        }
+        least = value < least || isnan(value) ? value : least;
+    }
+    return least;
+}
+
+static double value_of(const struct gm_lane *lane, size_t name)
+{
+    const struct gm_run *run = lane->run;
+    const struct gm_parameter *row = row_of(lane->scene, name);
+    if (row) {
+        return gm_parameter_get(row, gm_is_setting(row) ? (const void *)&lane->settings : lane->parameters);
+    }
+    return name >= FIXED + GM_CLAIM_COUNT ? gm_lane_observe(lane, observable_of(lane->scene, name))
+           : name == TIME                 ? run->t
+           : name == STEPS                ? (double)run->steps
+           : name == EVALUATIONS          ? gm_run_per_member(run, run->evaluations)
+                                          : certified_value(lane, name);
+}
+
+/* Returns true if the lane meets the condition; the sentence gives the values of its names. */
+static bool meets(const struct gm_expectation *expectation, const struct gm_lane *lane, char *sentence)
+{
+    struct names names = {.scene = lane->scene};
+    double values[GM_MOST_NAMES] = {0};
+    bool finite = true;
+    sentence[0] = '\0';
+    for (size_t i = 0; i < expectation->count; i++) {
+        const size_t name = expectation->names[i];
+        const bool is_claim = name >= FIXED && name < FIXED + GM_CLAIM_COUNT;
+        values[i] = value_of(lane, name);
+        finite = finite && isfinite(values[i]);
+        gm_append(sentence, GM_MESSAGE, "%s%.60s = %.6g", i > 0 ? ", " : "",
+                  is_claim ? gm_claims[name - FIXED].key : name_at(name, &names), values[i]);
+    }
+    const gm_node_id count = expectation->node + 1;
+    double *nodes = malloc(count * sizeof *nodes);
+    if (nodes) {
+        gm_formula_evaluate(&expectation->graph, count, values, nodes);
+    }
+    const bool met =
+        nodes && finite && nodes[expectation->node] == 1; /* a comparison with NaN decides nothing */
+    free(nodes);
+    return met;
+}
+
+/* Returns true if an expectation of the step names this parameter. */
+static bool is_named(const struct gm_tour_step *step, const struct gm_parameter *row)
+{
+    bool named = false;
+    for (size_t i = 0; i < step->expectation_count; i++) {
+        for (size_t k = 0; k < step->expectations[i].count; k++) {
+            named = named || row_of(step->request.scene, step->expectations[i].names[k]) == row;
+        }
+    }
+    return named;
+}
+
+/* Returns true if the answer may change a parameter. */
+static bool is_free(const struct gm_tour_step *step, const struct gm_parameter *row)
+{
+    return !row || row->looks || gm_is_setting(row) || row->offset == offsetof(struct gm_timing, dt) ||
+           row->offset == offsetof(struct gm_timing, until) || is_named(step, row);
+}
+
+/* Returns the first parameter that the lane has otherwise than shown, or changed during the run; or NULL. */
+static const struct gm_parameter *first_changed(const struct gm_tour_step *step,
+                                                const struct gm_request *request, size_t lane)
+{
+    const struct gm_scene *scene = step->request.scene;
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct gm_parameter *row = &scene->parameters[i];
+        const double shown = gm_parameter_get(row, step->request.lanes[0].parameters),
+                     now = gm_parameter_get(row, request->lanes[lane].parameters);
+        if (!is_free(step, row) && now != shown && !(isnan(now) && isnan(shown))) {
+            return row;
+        }
+    }
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change *change = &request->changes[i];
+        char key[96];
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(change->text, "="), change->text);
+        const struct gm_parameter *row = gm_scene_parameter(scene, key);
+        if (change->lane == lane && !is_free(step, row)) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/* Returns the number of expectations that the lane meets one after the other, all plus 1 if it passes. */
+static size_t grade_lane(const struct gm_tour_step *step, const struct gm_request *request, size_t index,
+                         const struct gm_lane *lane, char *sentence)
+{
+    const struct gm_run *run = lane->run;
+    const char *title = lane->schemes;
+    char values[GM_MESSAGE];
+    const struct gm_parameter *changed = first_changed(step, request, index);
+    if (run->status != GM_OK) {
+        gm_failure_sentence(lane, values, sizeof values);
+        gm_refuse(sentence, "Not passed: %.100s: %.300s", title, values);
+        return 0;
+    }
+    /* its next step would end beyond the end, and a large step has not skipped most of the time */
+    if (run->t + fabs(run->dt) * (1 - 1e-9) <= step->until ||
+        run->t - lane->t0 < (step->until - lane->t0) / 2) {
+        gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
+                  run->t, step->until);
+        return 0;
+    }
+    if (changed) {
+        gm_refuse(sentence, "Not passed: %.100s has another %.60s than the exercise.", title, changed->key);
+        return 0;
+    }
+    for (size_t i = 0; i < step->expectation_count; i++) {
+        const struct gm_expectation *expectation = &step->expectations[i];
+        const bool met = meets(expectation, lane, values);
+        if (!met) {
+            gm_refuse(sentence, "Not passed: %.100s misses %.150s: %.200s.", title, expectation->text,
+                      values);
+            return i;
+        }
+    }
+    gm_refuse(sentence, "Passed with %.100s: ", title);
+    for (size_t i = 0; i < step->expectation_count; i++) {
+        meets(&step->expectations[i], lane, values);
+        gm_append(sentence, GM_MESSAGE, "%s%.150s", i > 0 ? ", " : "", values);
+    }
+    gm_append(sentence, GM_MESSAGE, ".");
+    return step->expectation_count + 1;
+}
+
+bool gm_exercise_passed(const struct gm_tour_step *step, const struct gm_request *request,
+                        const struct gm_lane *const *lanes, char *sentence)
+{
+    size_t best = 0;
+    for (size_t i = 0; i < request->count && best <= step->expectation_count; i++) {
+        char text[GM_MESSAGE];
+        const size_t met = grade_lane(step, request, i, lanes[i], text);
+        if (i == 0 || met > best) {
+            snprintf(sentence, GM_MESSAGE, "%s", text);
+            best = met;
+        }
+    }
+    return best > step->expectation_count;
+}

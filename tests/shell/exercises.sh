@@ -1,0 +1,144 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Exercises of tours: each passes with a right answer and not with a near miss, in the explorer and when the saved answer is
+# graded; forged answers and wrong conditions are refused. exercises.sh GEOMINT TOURS
+set -u
+tours=$(realpath "$2")
+. "$(dirname "$0")/answers.sh"
+GEOMINT_TOURS=$tours
+export GEOMINT_TOURS
+
+# answer STEP STEPS RUN [CHANGE]: writes x.answer
+answer() {
+    printf 'tour: exercises\nstep: %s\nsteps: %s\nrun: %s\n' "$1" "$2" "$3" >x.answer
+    [ $# -lt 4 ] || printf 'change: %s\n' "$4" >>x.answer
+}
+
+# graded STATUS PATTERN: x.answer has that verdict, in one line
+graded() {
+    "$geomint" grade x.answer >out 2>err
+    status=$?
+    [ $status = "$1" ] || fail "grade ends with $status instead of $1: $(cat x.answer out err)"
+    [ -s err ] && fail "grade complains: $(cat err)"
+    [ "$(wc -l <out)" = 1 ] && grep -q "$2" out || fail "grade does not say $2: $(cat out)"
+}
+passes() {
+    answer "$@"
+    graded 0 '^Passed with '
+}
+misses() {
+    pattern=$1
+    shift
+    answer "$@"
+    graded 4 "^Not passed: .*$pattern"
+}
+
+# ---- the four exercises ----
+
+passes 1 62 'disc scheme=verlet dt=1'
+passes 1 60 'disc scheme=symplectic-euler dt=pi/3'
+misses 'evaluations < 65' 1 69 'disc scheme=verlet dt=0.9'
+misses 'area_error < 1e-10' 1 62 'disc scheme=rk4 dt=1'
+misses 'energy_error < 1' 1 33 'disc scheme=verlet dt=1.9'
+misses 'is at t = 61,' 1 61 'disc scheme=verlet dt=1'
+misses 'is at t = 0,' 1 0 'disc scheme=verlet dt=100'
+misses 'another radius' 1 62 'disc scheme=verlet dt=1 radius=0.1'
+misses 'area_error < 1e-10' 1 62 'disc scheme=rk4 dt=1' '0 1 scheme=verlet'
+
+passes 2 5317 'stiff scheme=verlet dt=0.0395'
+misses 't/steps > 0.0392' 2 5400 'stiff scheme=verlet dt=0.039'
+misses 'led beyond' 2 5270 'stiff scheme=verlet dt=0.0399'
+misses 'evaluations < steps + 2' 2 5317 'stiff scheme=midpoint dt=0.0395'
+misses 't/steps > 0.0392' 2 20999 'stiff scheme=verlet dt=0.01' '0 20999 dt=0.0395'
+misses 'order > 1.5' 2 5317 'stiff scheme=symplectic-euler dt=0.0395' '0 5317 scheme=verlet'
+
+passes 3 629 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.1'
+misses 'position_error < 1e-8' 3 640 'kepler eccentricity=0.9 scheme=logh-suzuki4 dt=0.1'
+misses 'evaluations < 20000' 3 1257 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.05'
+misses 'another eccentricity' 3 629 'kepler eccentricity=0.1 scheme=logh-kahan-li8 dt=0.1'
+
+kutta='explicit(0,\ 0,\ 0\ |\ 1/2,\ 0,\ 0\ |\ -1,\ 2,\ 0;\ 1/6,\ 2/3,\ 1/6'
+passes 4 126 "kepler eccentricity=0.3 scheme=$kutta) dt=0.05"
+misses 'order > 2.5' 4 126 "kepler eccentricity=0.3 scheme=explicit(0,\\ 0,\\ 0\\ |\\ 1/2,\\ 0,\\ 0\\ |\\ -1,\\ 2,\\ 0;\\ 1/4,\\ 1/2,\\ 1/4) dt=0.05"
+misses 'certified > 0' 4 126 "kepler eccentricity=0.3 scheme=$kutta;\\ order:\\ 4) dt=0.05"
+misses 'typed > 0' 4 126 'kepler eccentricity=0.3 scheme=ruth3 dt=0.05'
+
+# of several lanes one suffices, and the nearest miss is reported
+passes 1 '62 62' 'disc scheme=rk4,verlet dt=1'
+misses 'evaluations < 65' 1 '62 69' 'disc scheme=rk4,verlet dt=1,0.9 zip=yes'
+
+# ---- the same verdict in the explorer, whose saved answer is graded alike ----
+
+"$geomint" tour exercises --keys '6s' --screen 80x24 --shot screen.txt || fail 'the explorer'
+grep -q 'Task: Preserve the area' screen.txt || fail "the task is not seen: $(cat screen.txt)"
+grep -q 'Not passed: RK4 misses area_error < 1e-10' screen.txt || fail "no verdict: $(cat screen.txt)"
+grep -q 'Hint:' screen.txt && fail 'the hint is shown before it is asked for'
+"$geomint" tour exercises --keys '6s H' --screen 80x24 --shot screen.txt || fail 'H'
+grep -q 'Hint: A symplectic scheme' screen.txt || fail "the hint is not seen: $(cat screen.txt)"
+grep -q 'Not passed: RK4' screen.txt || fail "the hint hides the verdict: $(cat screen.txt)"
+for dt in 1 0.9; do
+    rm -f ./*.answer
+    "$geomint" tour exercises --keys "s verlet ENTER ENTER $dt ENTER r 7s S" --screen 80x24 --shot screen.txt || fail 'S'
+    grep -q 'Saved exercises-0001.answer: geomint grade' screen.txt || fail "S saves nothing: $(cat screen.txt)"
+    [ "$(wc -c <exercises-0001.answer)" -lt 200 ] || fail 'the answer is long'
+    mv exercises-0001.answer x.answer
+    if [ $dt = 1 ]; then
+        graded 0 '^Passed with Verlet: '
+        grep -q 'Passed with Verlet: ' screen.txt || fail "not passed: $(cat screen.txt)"
+    else
+        graded 4 '^Not passed: Verlet misses evaluations < 65: evaluations = 70'
+        grep -q 'Not passed: Verlet misses evaluations < 65' screen.txt || fail "passed: $(cat screen.txt)"
+    fi
+done
+# a change during the run is repeated
+"$geomint" tour exercises --keys '1s s verlet ENTER 6s S' --screen 80x24 --shot screen.txt || fail 'a switch'
+mv exercises-0001.answer x.answer
+grep -q '^change: 0 [1-9][0-9]* scheme=verlet$' x.answer || fail "no change in $(cat x.answer)"
+graded 4 'Verlet, after RK4 misses area_error'
+
+# ---- what is refused ----
+
+refused 1 'grade takes a file' grade
+refused 3 'could not be read' grade nowhere.answer
+bad() {
+    printf "$2" >bad.answer
+    refused 1 "$1" grade bad.answer
+}
+bad 'a line tour:' ''
+bad 'a line run:' 'tour: exercises\nstep: 1\n'
+bad 'given twice' 'tour: exercises\ntour: exercises\n'
+bad 'no line "passed"' 'tour: exercises\nstep: 1\nrun: disc\nsteps: 1\npassed: yes\n'
+bad 'there is no tour' 'tour: exercize5\nstep: 1\nrun: disc\nsteps: 1\n'
+bad 'a number from 1 to 4' 'tour: exercises\nstep: 5\nrun: disc\nsteps: 1\n'
+bad 'is not an exercise' 'tour: area\nstep: 1\nrun: disc\nsteps: 1\n'
+bad 'is about disc' 'tour: exercises\nstep: 1\nrun: kepler\nsteps: 1\n'
+bad 'for each lane' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4\nsteps: 1e99\n'
+bad 'for each lane' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4,verlet\nsteps: 5\n'
+bad 'did you mean verlet' 'tour: exercises\nstep: 1\nrun: disc scheme=verlett\nsteps: 1\n'
+bad 'LANE STEP key=value' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4\nsteps: 1\nchange: x\n'
+bad 'cannot be changed' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4\nsteps: 2\nchange: 0 1 radius=1\n'
+bad 'at most 2048 bytes' "tour: $(head -c 2050 /dev/zero | tr '\0' x)\n"
+
+# a condition is read with the tour: a mistake in it has its line and a caret
+head='title: x\nstep: a\nsay: b\nask: c\nanswer: d\nshow: kepler scheme=rk4\nuntil: 1\n'
+wrong() {
+    printf "$head$2\n" >wrong.tour
+    "$geomint" tour ./wrong.tour --list >out 2>err
+    [ $? = 3 ] && grep -qF "$1" err || fail "$2: $(cat err)"
+}
+wrong 'line 8' 'expect: energy_eror < 1e-6'
+grep -qF 'did you mean energy_error' err || fail "no proposal: $(cat err)"
+[ "$(grep -n '\^' err | cut -d: -f1)" = 3 ] && sed -n 2p err | grep -q 'energy_eror < 1e-6' || fail "no caret: $(cat err)"
+wrong 'a condition compares two values' 'expect: energy_error'
+wrong 'equality' 'expect: steps = 5'
+wrong 'hint: is for an exercise' 'hint: none'
+printf 'title: x\nstep: a\nsay: b\nshow: kepler\nexpect: t > 0\n' >wrong.tour
+refused 3 'needs show: and ask:' tour ./wrong.tour --list
+
+# an answer is graded with the tour that is named, so a teacher's own text decides
+sed 's/evaluations < 65/evaluations < 60/' "$tours/exercises.tour" >stricter.tour
+answer 1 62 'disc scheme=verlet dt=1'
+"$geomint" grade x.answer ./stricter.tour >out
+[ $? = 4 ] && grep -q 'evaluations < 60' out || fail "another tour: $(cat out)"
+[ "$failures" = 0 ] && echo "exercises: all passed"
+exit $((failures > 0))
