@@ -76,6 +76,7 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
 
 static void put_tour(const struct lesson *lesson, struct gm_row *view)
 {
+    gm_row_put(view, "tour %s", take_file(lesson, GM_FILE_TOUR, lesson->options->tour));
     struct gm_row steps = gm_row_open(view, "steps", ']');
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];

@@ -460,8 +460,8 @@ at('undo').onclick = () => order('undo');
 at('find').oninput = showSchemes;
 at('find').onkeydown = event => {
     const first = at('schemes').querySelector('.scheme');
-    if (event.key === 'Enter' && first) {
-        take(first.dataset.scheme, event.shiftKey || forking);
+    if (event.key === 'Enter') { // a word that fits none may be a user-defined scheme
+        take(first ? first.dataset.scheme : at('find').value, event.shiftKey || forking);
     }
 };
 
@@ -577,7 +577,7 @@ async function goTo(wanted) {
     const begins = first < index ? steps[index - 1].until : null;
     const plan = steps.slice(first, index + 1).flatMap(one => one.changes);
     stepNumber = index;
-    answered = !step.ask;
+    answered = !step.ask || step.exercise;
     at('tour').hidden = false;
     const refused = await open(steps[first].show, [...plan, {t: step.until, lane: -1, text: null}]);
     if (refused) {
@@ -601,12 +601,23 @@ function showStep(over) {
     at('tour-place').textContent = `step ${stepNumber + 1} of ${lesson.steps.length}`;
     at('tour-title').textContent = step.title;
     at('tour-text').replaceChildren(...text('', step.say), ...text('', step.ask, 'ask'),
-        ...answered ? [...text('', step.ask && step.answer), ...text('Watch:', step.watch), ...over || !step.ask ? text('Try:', step.try) : []] : [],
+        ...answered ? [...text('', step.ask && !step.exercise && step.answer), ...text('Watch:', step.watch), ...over || !step.ask ? text('Try:', step.try) : []] : [],
         ...answered && step.study ? text('In a terminal:', `geomint ${step.study}`) : []);
+    at('grade').hidden = !step.exercise;
+    at('hand-in').hidden = true;
     at('next').textContent = answered ? 'next' : 'answer';
     at('next').disabled = answered && stepNumber === lesson.steps.length - 1;
     at('earlier').disabled = stepNumber === 0;
 }
+
+at('grade').onclick = async () => {
+    const step = lesson.steps[stepNumber], {passed, verdict, answer} = await ask('grade', {tour: lesson.tour, step: stepNumber + 1});
+    showStep(false);
+    at('tour-text').append(make('p', {id: 'verdict', className: passed ? 'ask' : '', textContent: verdict}),
+        make('p', null, (passed ? step.answer : step.hint) || ''));
+    at('hand-in').hidden = !answer;
+    at('hand-in').onclick = () => download(`${lesson.tour.replace(/\.tour$/, '')}-${stepNumber + 1}.answer`, new Blob([answer]));
+};
 
 function stopOfTour() {
     playing = false;

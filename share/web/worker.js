@@ -10,7 +10,7 @@ let web, lab = 0; // the program, and its handle
 let view = null; // what geomint_view has last described
 let shape = {width: 0, height: 0, scale: 1, dark: false}, pixels = 0, capacity = 0;
 let playing = false, speed = 1, clock = 0, clockTime = 0, late = false;
-let agenda = []; // changes of a tour at their times, and its stop: {t, lane, text}
+let agenda = [], due = []; // changes of a tour at their times, and its stop, {t, lane, text}; those that are to come
 let shown = true, stale = false, planned = false; // the page has the last frame; there is something new; a tick will come
 
 const text = at => at ? web.UTF8ToString(at) : null;
@@ -48,8 +48,8 @@ const ended = () => view.lanes.every(lane => lane.status !== 'ok');
 
 // Makes the changes of the tour that are due.
 function keepAgenda() {
-    while (agenda.length > 0 && !view.backwards && view.t >= agenda[0].t - 1e-9 * Math.abs(agenda[0].t)) {
-        const change = agenda.shift(), [key, ...value] = (change.text || '').split('=');
+    while (due.length > 0 && !view.backwards && view.t >= due[0].t - 1e-9 * Math.abs(due[0].t)) {
+        const change = due.shift(), [key, ...value] = (change.text || '').split('=');
         if (!change.text) {
             playing = false;
             postMessage({stop: true});
@@ -64,8 +64,8 @@ function keepAgenda() {
     }
 }
 
-function advance(due) {
-    const limit = agenda.length > 0 && !view.backwards ? Math.min(due, agenda[0].t) : due;
+function advance(wanted) {
+    const limit = due.length > 0 && !view.backwards ? Math.min(wanted, due[0].t) : wanted;
     call('advance', lab, limit);
     look();
     keepAgenda();
@@ -75,20 +75,20 @@ function advance(due) {
 let part = 0;
 function step() {
     const begun = performance.now(), from = view.t;
-    const due = clockTime + sign() * speed * (begun - clock) / 1000;
+    const goal = clockTime + sign() * speed * (begun - clock) / 1000;
     let now = begun;
     part = part || speed / 1000;
-    while (playing && sign() * (due - view.t) > 0 && now - begun < SLICE) {
-        const before = view.t, next = sign() * Math.min(sign() * due, sign() * (before + sign() * part));
+    while (playing && sign() * (goal - view.t) > 0 && now - begun < SLICE) {
+        const before = view.t, next = sign() * Math.min(sign() * goal, sign() * (before + sign() * part));
         advance(next);
         const cost = performance.now() - now;
         now += cost;
         part *= cost < SLICE / 4 ? 2 : cost > SLICE ? 0.5 : 1;
-        if (next === due) {
+        if (next === goal) {
             break;
         }
     }
-    late = sign() * (due - view.t) > speed * LATE / 1000 && now - begun >= SLICE;
+    late = sign() * (goal - view.t) > speed * LATE / 1000 && now - begun >= SLICE;
     if (late) {
         setClock();
     }
@@ -143,7 +143,11 @@ function tick() {
 function order(name, ...values) {
     const status = call(name, lab, ...values);
     const refusal = status === 0 || status === 2 ? '' : sentence(lab);
+    const before = view.t;
     look();
+    if (view.t < before) { // it is shown again
+        due = agenda.filter(({t}) => t > view.t);
+    }
     setClock();
     stale = true;
     return refusal;
@@ -182,6 +186,7 @@ const orders = {
         call('close', lab);
         lab = opened;
         agenda = changes || [];
+        due = [...agenda];
         playing = false;
         part = 0;
         look();
@@ -213,6 +218,10 @@ const orders = {
         stale = true;
     },
     order(values) { return order(...values); },
+    grade({tour, step}) {
+        const passed = call('grade', lab, tour, step) === 0, verdict = sentence(lab);
+        return {passed, verdict, answer: text(call('answer', lab, tour, step))};
+    },
     commands() { call('theme', lab, 'light'); return JSON.parse(text(call('commands', lab))); },
     certificate(name) {
         const handle = call('certify', name, []), found = text(call('text', handle)), refused = sentence(handle);
