@@ -81,11 +81,10 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];
         struct gm_row row = gm_row_open(&steps, NULL, '}');
-        gm_row_put(
-            &row,
-            "title %s, say %s, ask %s, answer %s, watch %s, try %s, study %s, until %.17g, seconds %.17g",
-            step->title, step->say, step->ask, step->answer, step->watch, step->attempt, step->study_words,
-            step->until, step->seconds);
+        gm_row_put(&row, "title %s, say %s, ask %s, exercise %d, hint %s, answer %s", step->title, step->say,
+                   step->ask, step->expectation_count > 0, step->hint, step->answer);
+        gm_row_put(&row, "watch %s, try %s, study %s, until %.17g, seconds %.17g", step->watch, step->attempt,
+                   step->study_words, step->until, step->seconds);
         if (step->show) {
             put_words(lesson, &row, "show", gm_arguments_of(lesson->options->arena, step->show));
         }

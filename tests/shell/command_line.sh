@@ -746,6 +746,15 @@ view = json.loads(open("tour.html").read()[3:-5])
 steps = view["steps"]
 assert view["title"] == "Area for 7b" and len(steps) == 7 and steps[1]["show"] == ["disc", "scheme=explicit-euler", "until=2*pi"], view
 assert steps[5]["changes"] == [{"t": 30, "lane": 0, "text": "scheme=midpoint"}] and steps[5]["until"] == 60, steps[5]
+assert view["tour"] == "area" and not any(step["exercise"] for step in steps), view
+END
+"$geomint" list exercises --source >own.tour
+status 0 web --tour ./own.tour -o tour.html
+python3 - <<'END' || fail 'the exercises of a tour in a page'
+import json
+view = json.loads(open("tour.html").read()[3:-5])
+assert view["tour"] == "own.tour" and view["files"]["own.tour"] == open("own.tour").read(), view
+assert all(step["exercise"] and step["hint"] for step in view["steps"]), view["steps"]
 END
 printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
 refused 1 'wrong.system:4:' web wrong.system -o none.html

@@ -233,6 +233,7 @@ async def other_views(port):
     await page.until("view.t > 1")
     check("its answer runs", "Larger" in await page.value("at('tour-text').textContent"))
     page = await Page().open(port, lesson("exercises.html", "--tour", "exercises"))
+    check("an exercise is graded on request", await page.value("!at('grade').hidden && at('next').textContent === 'next'"))
     await page.value("ask('ahead', 62.9)")
     await page.click("grade")
     native = Native("disc", "scheme=rk4", "dt=pi/6").order("advance", 62.9)
