@@ -155,9 +155,14 @@ function order(name, ...values) {
 
 const orders = {
     async start({program, wasm, fonts, files}) {
-        const unpack = async packed => new Uint8Array(await new Response(
-            new Blob([Uint8Array.from(atob(packed), letter => letter.charCodeAt(0))]).stream()
-                .pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+        const unpack = async packed => {
+            const letters = atob(packed), bytes = new Uint8Array(letters.length);
+            for (let i = 0; i < letters.length; i++) {
+                bytes[i] = letters.charCodeAt(i);
+            }
+            return new Uint8Array(await new Response(
+                new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+        };
         const script = URL.createObjectURL(new Blob([await unpack(program)], {type: 'text/javascript'}));
         importScripts(script);
         URL.revokeObjectURL(script);
