@@ -165,7 +165,7 @@ int __wrap_pthread_join(pthread_t thread, void **result)
     return 0;
 }
 
-/* ---- files in memory: there are none, so movies and compilers are not started ---- */
+/* ---- files in memory, for processes that a browser does not start ---- */
 
 int memfd_create(const char *name, unsigned flags)
 {
