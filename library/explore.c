@@ -70,92 +70,80 @@ static int end(const struct gm_call *call, bool made, int refusal, const char *m
     return gm_call_end(call);
 }
 
-/* Carries out an order, and the restart that is then due. */
-static bool obey(struct gm_session *session, const struct gm_order *order, char *message)
-{
-    return gm_session_obey(session, order, message) &&
-           (!session->restart || gm_session_restart(session, message));
-}
-
-static int act(geomint *handle, size_t lane, const struct gm_order *order)
-{
-    struct gm_call call;
-    char message[GM_MESSAGE] = "";
-    struct gm_session *session = begin(&call, handle, lane);
-    const bool made = session && obey(session, order, message);
-    return end(&call, made, GEOMINT_USAGE, message);
-}
-
-static int act_with_scheme(geomint *handle, size_t lane, enum gm_order_kind kind, const char *word)
-{
-    struct gm_call call;
-    char message[GM_MESSAGE] = "";
-    int refusal = GEOMINT_USAGE;
-    struct gm_order order = {.kind = kind};
-    struct gm_session *session = begin(&call, handle, lane);
-    bool made = session && gm_handle_given(handle, word, "scheme");
-    if (made) {
-        order.scheme = gm_scheme_sought(word, &refusal, message);
-        made = order.scheme;
-    }
-    if (made) {
-        refusal = GEOMINT_USAGE;
-        order.scheme = gm_scheme_find_for(gm_scheme_word(order.scheme), &session->lanes[lane]->problem);
-        made = obey(session, &order, message);
-    }
-    return end(&call, made, refusal, message);
-}
-
 static const char *key_at(size_t i, const void *scene)
 {
     return ((const struct gm_scene *)scene)->parameters[i].key;
 }
 
-static int act_on_parameter(geomint *handle, size_t lane, const char *key, struct gm_order *order)
+/* Completes an order by the scheme or the parameter that a word names; returns false with a message. */
+static bool complete(struct gm_order *order, const struct gm_session *session, const char *word, int *refusal,
+                     char *message)
+{
+    const struct gm_scene *scene = session->scene;
+    switch (order->kind) {
+    case GM_ORDER_SWITCH:
+    case GM_ORDER_FORK:
+    case GM_ORDER_ADD:
+        order->scheme = gm_scheme_sought(word, refusal, message);
+        if (order->scheme) {
+            const struct gm_problem *problem = &session->lanes[session->selected]->problem;
+            order->scheme = gm_scheme_find_for(gm_scheme_word(order->scheme), problem);
+            *refusal = GEOMINT_USAGE;
+        }
+        return order->scheme;
+    default: {
+        const char *near = gm_nearest(word, scene->parameter_count, key_at, scene);
+        order->row = gm_word_parameter(scene, word);
+        return order->row || gm_refuse(message, "there is no parameter \"%.60s\"; %s%s", word,
+                                       near ? "did you mean " : "geomint_view lists them", near ? near : "");
+    }
+    }
+}
+
+/* Carries out an order on a lane, with the restart that is then due. `role` is the word's name in geomint.h; NULL: the
+   order has none. */
+static int act(geomint *handle, size_t lane, struct gm_order order, const char *role, const char *word)
 {
     struct gm_call call;
     char message[GM_MESSAGE] = "";
+    int refusal = GEOMINT_USAGE;
     struct gm_session *session = begin(&call, handle, lane);
-    bool made = session && gm_handle_given(handle, key, "key");
-    if (made) {
-        const struct gm_scene *scene = session->scene;
-        const char *near = gm_nearest(key, scene->parameter_count, key_at, scene);
-        order->row = gm_word_parameter(scene, key);
-        made = order->row ? obey(session, order, message)
-                          : gm_refuse(message, "there is no parameter \"%.60s\"; %s%s", key,
-                                      near ? "did you mean " : "geomint_view lists them", near ? near : "");
-    }
-    return end(&call, made, GEOMINT_USAGE, message);
+    const bool made = session &&
+                      (!role || (gm_handle_given(handle, word, role) &&
+                                 complete(&order, session, word, &refusal, message))) &&
+                      gm_session_obey(session, &order, message) &&
+                      (!session->restart || gm_session_restart(session, message));
+    return end(&call, made, refusal, message);
 }
 
 int geomint_forward(geomint *handle)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_FORWARD});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_FORWARD}, NULL, NULL);
 }
 
 int geomint_back(geomint *handle)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_BACK});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_BACK}, NULL, NULL);
 }
 
 int geomint_reverse(geomint *handle)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_TURN});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_TURN}, NULL, NULL);
 }
 
 int geomint_restart(geomint *handle)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_RESTART});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_RESTART}, NULL, NULL);
 }
 
 int geomint_undo(geomint *handle)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_UNDO});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_UNDO}, NULL, NULL);
 }
 
 int geomint_visit(geomint *handle, double passed)
 {
-    return act(handle, selected, &(struct gm_order){.kind = GM_ORDER_VISIT, .value = passed});
+    return act(handle, selected, (struct gm_order){.kind = GM_ORDER_VISIT, .value = passed}, NULL, NULL);
 }
 
 int geomint_advance(geomint *handle, double t)
@@ -169,34 +157,34 @@ int geomint_advance(geomint *handle, double t)
 
 int geomint_remove(geomint *handle, size_t lane)
 {
-    return act(handle, lane, &(struct gm_order){.kind = GM_ORDER_REMOVE});
+    return act(handle, lane, (struct gm_order){.kind = GM_ORDER_REMOVE}, NULL, NULL);
 }
 
 int geomint_switch(geomint *handle, size_t lane, const char *scheme)
 {
-    return act_with_scheme(handle, lane, GM_ORDER_SWITCH, scheme);
+    return act(handle, lane, (struct gm_order){.kind = GM_ORDER_SWITCH}, "scheme", scheme);
 }
 
 int geomint_fork(geomint *handle, size_t lane, const char *scheme)
 {
-    return act_with_scheme(handle, lane, GM_ORDER_FORK, scheme);
+    return act(handle, lane, (struct gm_order){.kind = GM_ORDER_FORK}, "scheme", scheme);
 }
 
 int geomint_add(geomint *handle, size_t lane, const char *scheme)
 {
-    return act_with_scheme(handle, lane, GM_ORDER_ADD, scheme);
+    return act(handle, lane, (struct gm_order){.kind = GM_ORDER_ADD}, "scheme", scheme);
 }
 
 int geomint_set(geomint *handle, size_t lane, const char *key, const char *value)
 {
     struct gm_order order = {.kind = value ? GM_ORDER_TYPE : GM_ORDER_STANDARD};
     snprintf(order.text, sizeof order.text, "%s", value ? value : "");
-    return act_on_parameter(handle, lane, key, &order);
+    return act(handle, lane, order, "key", key);
 }
 
 int geomint_slide(geomint *handle, size_t lane, const char *key, double position)
 {
-    return act_on_parameter(handle, lane, key, &(struct gm_order){.kind = GM_ORDER_SLIDE, .value = position});
+    return act(handle, lane, (struct gm_order){.kind = GM_ORDER_SLIDE, .value = position}, "key", key);
 }
 
 int geomint_look(geomint *handle, double azimuth, double elevation, double zoom)
@@ -228,17 +216,16 @@ int geomint_point(geomint *handle, double across, double down)
 
 int geomint_press(geomint *handle, const char *key)
 {
-    struct gm_call call;
-    char message[GM_MESSAGE] = "";
     struct gm_order order;
-    struct gm_session *session = begin(&call, handle, selected);
-    bool made = session && gm_handle_given(handle, key, "key");
-    if (made) {
-        made = gm_key_order(gm_key_named(key, strlen(key)), &order)
-                   ? obey(session, &order, message)
-                   : gm_refuse(message, "the key \"%.20s\" gives no order by itself", key);
+    if (key && gm_key_order(gm_key_named(key, strlen(key)), &order)) {
+        return act(handle, selected, order, NULL, NULL);
     }
-    return end(&call, made, GEOMINT_USAGE, message);
+    struct gm_call call;
+    const struct gm_session *session = begin(&call, handle, selected);
+    if (session && gm_handle_given(handle, key, "key")) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "this key gives no order by itself");
+    }
+    return gm_call_end(&call);
 }
 
 /* ---- texts ---- */

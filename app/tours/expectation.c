@@ -72,6 +72,7 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
         return GM_REFUSED;
     }
     expectation->names[at] = number;
+    expectation->keys[at] = known;
     expectation->count += at == expectation->count;
     *node = gm_formula_variable(&expectation->graph, at);
     return GM_KNOWN;
@@ -132,17 +133,13 @@ static double value_of(const struct gm_lane *lane, size_t name)
 /* Returns true if the lane meets the condition; the sentence gives the values of its names. */
 static bool meets(const struct gm_expectation *expectation, const struct gm_lane *lane, char *sentence)
 {
-    struct names names = {.scene = lane->scene};
     double values[GM_MOST_NAMES] = {0};
     bool finite = true;
     sentence[0] = '\0';
     for (size_t i = 0; i < expectation->count; i++) {
-        const size_t name = expectation->names[i];
-        const bool is_claim = name >= FIXED && name < FIXED + GM_CLAIM_COUNT;
-        values[i] = value_of(lane, name);
+        values[i] = value_of(lane, expectation->names[i]);
         finite = finite && isfinite(values[i]);
-        gm_append(sentence, GM_MESSAGE, "%s%.60s = %.6g", i > 0 ? ", " : "",
-                  is_claim ? gm_claims[name - FIXED].key : name_at(name, &names), values[i]);
+        gm_append(sentence, GM_MESSAGE, "%s%.60s = %.6g", i > 0 ? ", " : "", expectation->keys[i], values[i]);
     }
     const gm_node_id count = expectation->node + 1;
     double *nodes = malloc(count * sizeof *nodes);
@@ -212,9 +209,10 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s: %.300s", title, values);
         return 0;
     }
-    /* its next step would end beyond the end, and a large step has not skipped most of the time */
-    if (run->t + fabs(run->dt) * (1 - 1e-9) <= step->until ||
-        run->t - lane->t0 < (step->until - lane->t0) / 2) {
+    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt. A step as long as half of the
+       time is none. */
+    const double left = step->until - run->t, dt = fabs(run->dt);
+    if (left >= dt * (1 - 1e-9) || left < -4 * dt || left > (step->until - lane->t0) / 2) {
         gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
                   run->t, step->until);
         return 0;
@@ -223,21 +221,16 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s has another %.60s than the exercise.", title, changed->key);
         return 0;
     }
+    gm_refuse(sentence, "Passed with %.100s: ", title);
     for (size_t i = 0; i < step->expectation_count; i++) {
         const struct gm_expectation *expectation = &step->expectations[i];
-        const bool met = meets(expectation, lane, values);
-        if (!met) {
+        if (!meets(expectation, lane, values)) {
             gm_refuse(sentence, "Not passed: %.100s misses %.150s: %.200s.", title, expectation->text,
                       values);
             return i;
         }
+        gm_append(sentence, GM_MESSAGE, "%.150s%s", values, i + 1 < step->expectation_count ? ", " : ".");
     }
-    gm_refuse(sentence, "Passed with %.100s: ", title);
-    for (size_t i = 0; i < step->expectation_count; i++) {
-        meets(&step->expectations[i], lane, values);
-        gm_append(sentence, GM_MESSAGE, "%s%.150s", i > 0 ? ", " : "", values);
-    }
-    gm_append(sentence, GM_MESSAGE, ".");
     return step->expectation_count + 1;
 }
 

@@ -28,6 +28,7 @@ struct gm_expectation {
     gm_node_id node; /* 1 if it is met, else 0 */
     size_t names
         [GM_MOST_NAMES]; /* numbers of names; variable i of the graph is the value of the name names[i] */
+    const char *keys[GM_MOST_NAMES]; /* the names as they are written */
     size_t count;
 };
 

@@ -46,14 +46,15 @@ misses 'another radius' 1 62 'disc scheme=verlet dt=1 radius=0.1'
 misses 'area_error < 1e-10' 1 62 'disc scheme=rk4 dt=1' '0 1 scheme=verlet'
 
 passes 2 5317 'stiff scheme=verlet dt=0.0395'
-misses 't/steps > 0.0392' 2 5400 'stiff scheme=verlet dt=0.039'
+misses 't/steps > 0.0392' 2 5384 'stiff scheme=verlet dt=0.039'
+misses 'is at t = 63.3184,' 3 642 'kepler eccentricity=0.9 scheme=logh-suzuki4 dt=0.1'
 misses 'led beyond' 2 5270 'stiff scheme=verlet dt=0.0399'
 misses 'evaluations < steps + 2' 2 5317 'stiff scheme=midpoint dt=0.0395'
 misses 't/steps > 0.0392' 2 20999 'stiff scheme=verlet dt=0.01' '0 20999 dt=0.0395'
 misses 'order > 1.5' 2 5317 'stiff scheme=symplectic-euler dt=0.0395' '0 5317 scheme=verlet'
 
 passes 3 629 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.1'
-misses 'position_error < 1e-8' 3 640 'kepler eccentricity=0.9 scheme=logh-suzuki4 dt=0.1'
+misses 'position_error < 1e-8' 3 636 'kepler eccentricity=0.9 scheme=logh-suzuki4 dt=0.1'
 misses 'evaluations < 20000' 3 1257 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.05'
 misses 'another eccentricity' 3 629 'kepler eccentricity=0.1 scheme=logh-kahan-li8 dt=0.1'
 

@@ -336,7 +336,7 @@ static int draw_guide_keys(const struct gm_sheet *sheet, const struct gm_guide *
     const struct gm_tour_step *step = &guide->tour->steps[guide->step];
     const bool exercise = step->expectation_count > 0;
     snprintf(hints, sizeof hints, "%s%s%s%s", on ? forward : "", guide->step > 0 ? "N:back|" : "",
-             exercise && step->hint ? "H:hint|" : "", exercise ? "r:restart|S:save answer" : "a:again");
+             exercise && step->hint ? "H:hint|" : "", exercise ? "r:restart|S:save" : "a:again");
     const struct gm_sheet nothing = gm_sheet_part(sheet, 0, 0, sheet->width, 0);
     for (int i = gm_sheet_hints(&nothing, 1, hints) - 2; i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
