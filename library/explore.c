@@ -190,28 +190,30 @@ int geomint_slide(geomint *handle, size_t lane, const char *key, double position
 int geomint_look(geomint *handle, double azimuth, double elevation, double zoom)
 {
     return act(handle, selected,
-               &(struct gm_order){.kind = GM_ORDER_LOOK, .x = azimuth, .y = elevation, .value = zoom});
+               (struct gm_order){.kind = GM_ORDER_LOOK, .x = azimuth, .y = elevation, .value = zoom}, NULL,
+               NULL);
 }
 
 int geomint_point(geomint *handle, double across, double down)
 {
     struct gm_call call;
     char message[GM_MESSAGE] = "";
-    struct gm_session *session = begin(&call, handle, selected);
+    struct gm_spot spot = {0};
+    const struct gm_session *session = begin(&call, handle, selected);
     struct gm_canvas *canvas = session ? handle->kept.canvas : NULL;
-    struct gm_picture *picture = canvas ? gm_picture_open() : NULL;
-    bool made = true;
-    if (session && (!canvas || !session->scene->point)) {
-        made = gm_refuse(message, canvas ? "the scene has no points to start from"
-                                         : "the program's own rasteriser has drawn no picture");
-    } else if (picture) {
+    const bool can = canvas && session->scene->point;
+    struct gm_picture *picture = can ? gm_picture_open() : NULL;
+    if (picture) {
         gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
-        const struct gm_spot spot = gm_canvas_locate(canvas, picture, across, down);
-        const struct gm_order order = {.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y};
-        made = !spot.panel || obey(session, &order, message);
+        spot = gm_canvas_locate(canvas, picture, across, down);
+    } else {
+        gm_refuse(message, canvas ? "the scene has no points to start from"
+                                  : "the program's own rasteriser has drawn no picture");
     }
     gm_picture_close(picture);
-    return end(&call, made, GEOMINT_USAGE, message);
+    const int status = end(&call, picture != NULL, GEOMINT_USAGE, message);
+    const struct gm_order order = {.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y};
+    return spot.panel ? act(handle, selected, order, NULL, NULL) : status;
 }
 
 int geomint_press(geomint *handle, const char *key)
