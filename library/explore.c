@@ -210,10 +210,11 @@ int geomint_point(geomint *handle, double across, double down)
         gm_refuse(message, canvas ? "the scene has no points to start from"
                                   : "the program's own rasteriser has drawn no picture");
     }
+    const bool drawn = picture, hit = spot.panel;
     gm_picture_close(picture);
-    const int status = end(&call, picture != NULL, GEOMINT_USAGE, message);
+    const int status = end(&call, drawn, GEOMINT_USAGE, message);
     const struct gm_order order = {.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y};
-    return spot.panel ? act(handle, selected, order, NULL, NULL) : status;
+    return hit ? act(handle, selected, order, NULL, NULL) : status;
 }
 
 int geomint_press(geomint *handle, const char *key)
