@@ -70,10 +70,8 @@ async function begin() {
     shape();
     if (started) {
         await open(words);
-    } else if (lesson.steps) {
-        await goTo(0);
     } else if (!await openHash()) {
-        await open(lesson.words.length > 0 ? lesson.words : ['kepler']);
+        await (lesson.steps ? goTo(0) : open(lesson.words.length > 0 ? lesson.words : ['kepler']));
     }
     started = true;
 }
