@@ -209,8 +209,8 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s: %.300s", title, values);
         return 0;
     }
-    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt. A step as long as half of the
-       time is none. */
+    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt long. A step that covers half of
+       the time leads nowhere near. */
     const double left = step->until - run->t, dt = fabs(run->dt);
     if (left >= dt * (1 - 1e-9) || left < -4 * dt || left > (step->until - lane->t0) / 2) {
         gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
