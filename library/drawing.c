@@ -21,30 +21,48 @@ struct drawing {
     unsigned char *rgba; /* pixels */
 };
 
+/* The canvas of the handle's last picture, or a new one; NULL with a message. */
+static struct gm_canvas *open_canvas(const struct drawing *drawing, char *message)
+{
+    struct gm_kept_canvas *kept = &drawing->handle->kept;
+    const struct gm_appearance *look = &drawing->look;
+    const char *painter = getenv("GEOMINT_PAINTER");
+    const bool fits = kept->look.width == look->width && kept->look.height == look->height &&
+                      kept->look.scale == look->scale && kept->look.theme == look->theme &&
+                      strcmp(kept->painter, painter ? painter : "") == 0;
+    if (!kept->canvas || !fits) {
+        gm_canvas_close(kept->canvas);
+        *kept = (struct gm_kept_canvas){.canvas = gm_canvas_open(look, message), .look = *look};
+        snprintf(kept->painter, sizeof kept->painter, "%s", painter ? painter : "");
+    }
+    return kept->canvas;
+}
+
 static bool paint(struct drawing *drawing, char *message)
 {
     const struct gm_appearance *look = &drawing->look;
     const size_t pixels = (size_t)look->width * (size_t)look->height;
-    struct gm_canvas *canvas = gm_canvas_open(look, message);
+    struct gm_canvas *canvas = open_canvas(drawing, message);
     if (!canvas) {
         return false;
     }
     struct gm_picture *picture = gm_picture_open();
-    unsigned char *rgb = malloc(3 * pixels);
     const unsigned long refusals = gm_memory_refusals();
-    bool good = picture && rgb;
-    if (good) {
-        const struct gm_request *request = drawing->handle->request;
-        gm_lanes_draw(drawing->lanes, request->count, picture);
-        good = gm_canvas_paint(canvas, picture, rgb) && gm_memory_refusals() == refusals;
+    const unsigned char *rgb = NULL;
+    if (picture) {
+        gm_lanes_draw(drawing->lanes, drawing->handle->request->count, picture);
+        rgb = gm_canvas_paint(canvas, picture, NULL);
     }
+    const bool good = rgb && gm_memory_refusals() == refusals;
     for (size_t i = 0; good && i < pixels; i++) {
         memcpy(&drawing->rgba[4 * i], &rgb[3 * i], 3);
         drawing->rgba[4 * i + 3] = 255;
     }
-    free(rgb);
     gm_picture_close(picture);
-    gm_canvas_close(canvas);
+    if (!good || strcmp(gm_canvas_backend(canvas), "own") != 0) { /* a context of OpenGL is this thread's */
+        gm_canvas_close(canvas);
+        drawing->handle->kept.canvas = NULL;
+    }
     return good ||
            gm_refuse(message, "there is not enough memory for a picture of %dx%d", look->width, look->height);
 }
@@ -118,19 +136,37 @@ static int draw_alone(struct drawing *drawing)
     return gm_call_end(&call);
 }
 
+int geomint_theme(geomint *handle, const char *name)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    const bool given = handle && gm_handle_given(handle, name, "name"),
+               dark = given && strcmp(name, "dark") == 0;
+    if (given && !dark && strcmp(name, "light") != 0) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "a theme is light or dark");
+    } else if (given) {
+        handle->theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
+    }
+    return gm_call_end(&call);
+}
+
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba)
 {
     if (!gm_handle_given(handle, rgba, "rgba")) {
         return geomint_status(handle);
     }
-    return draw_alone(&(struct drawing){
-        .handle = handle, .look = {.width = width, .height = height, .scale = scale}, .rgba = rgba});
+    const struct gm_appearance look = {
+        .width = width, .height = height, .scale = scale, .theme = handle ? handle->theme : GM_THEME_LIGHT};
+    return draw_alone(&(struct drawing){.handle = handle, .look = look, .rgba = rgba});
 }
 
 int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title)
 {
     struct drawing drawing = {.handle = handle,
-                              .look = {.width = width, .height = height, .scale = scale, .title = title},
+                              .look = {.width = width,
+                                       .height = height,
+                                       .scale = scale,
+                                       .title = title,
+                                       .theme = handle ? handle->theme : GM_THEME_LIGHT},
                               .path = path};
     if (!gm_handle_given(handle, path, "path")) {
         return geomint_status(handle);

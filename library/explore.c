@@ -2,6 +2,7 @@
 /* Lanes that are explored: the orders of the explorer as functions, and what its screen shows as JSON. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/output/row.h"
@@ -12,6 +13,7 @@
 #include "core/expression/nearest.h"
 #include "core/schemes.h"
 #include "library/handle.h"
+#include "render/layout/panel.h"
 
 static void open_session(struct gm_arena *arena, void *data)
 {
@@ -185,6 +187,36 @@ int geomint_slide(geomint *handle, size_t lane, const char *key, double position
     return act(handle, lane, (struct gm_order){.kind = GM_ORDER_SLIDE, .value = position}, "key", key);
 }
 
+int geomint_look(geomint *handle, double azimuth, double elevation, double zoom)
+{
+    return act(handle, selected,
+               (struct gm_order){.kind = GM_ORDER_LOOK, .x = azimuth, .y = elevation, .value = zoom}, NULL,
+               NULL);
+}
+
+int geomint_point(geomint *handle, double across, double down)
+{
+    struct gm_call call;
+    char message[GM_MESSAGE] = "";
+    struct gm_spot spot = {0};
+    const struct gm_session *session = begin(&call, handle, selected);
+    struct gm_canvas *canvas = session ? handle->kept.canvas : NULL;
+    const bool can = canvas && session->scene->point;
+    struct gm_picture *picture = can ? gm_picture_open() : NULL;
+    if (picture) {
+        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
+        spot = gm_canvas_locate(canvas, picture, across, down);
+    } else {
+        gm_refuse(message, canvas ? "the scene has no points to start from"
+                                  : "the program's own rasteriser has drawn no picture");
+    }
+    const bool drawn = picture, hit = spot.panel;
+    gm_picture_close(picture);
+    const int status = end(&call, drawn, GEOMINT_USAGE, message);
+    const struct gm_order order = {.kind = GM_ORDER_POINT, .x = spot.x, .y = spot.y};
+    return hit ? act(handle, selected, order, NULL, NULL) : status;
+}
+
 int geomint_press(geomint *handle, const char *key)
 {
     struct gm_order order;
@@ -299,6 +331,27 @@ const char *geomint_schemes(geomint *handle)
         fputc(']', stream);
         text = gm_handle_written(handle, &writing);
     }
+    gm_call_end(&call);
+    return text;
+}
+
+const char *geomint_commands(geomint *handle)
+{
+    struct gm_call call;
+    struct gm_text_stream writing;
+    const char *text = NULL;
+    const struct gm_session *session = begin(&call, handle, selected);
+    char *picture = session ? gm_session_picture_command(session, handle->theme) : NULL;
+    char *explorer = picture ? gm_session_explorer_command(session) : NULL;
+    FILE *stream = explorer ? gm_stream_begin(&writing) : NULL;
+    if (stream) {
+        struct gm_row row = gm_row_begin(stream);
+        gm_row_put(&row, "picture %s, explorer %s", picture, explorer);
+        gm_row_close(&row, "");
+        text = gm_handle_written(handle, &writing);
+    }
+    free(picture);
+    free(explorer);
     gm_call_end(&call);
     return text;
 }

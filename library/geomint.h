@@ -140,6 +140,10 @@ int geomint_row(geomint *handle, size_t lane, double *t, double *values);
 int geomint_rows(geomint *handle, size_t lane, int64_t every, size_t rows, double *t, double *values,
                  size_t *made);
 
+/* Adds a change to a lane that geomint_open has opened: "scheme=rk4" or "dt=0.1" after its first `step` steps, which are
+   not made yet. Changes are added in the order of their steps, as `geomint render --changes` lists them. */
+int geomint_change(geomint *handle, size_t lane, int64_t step, const char *change);
+
 /* ---- exploring ---- */
 
 /* Opens words as the explorer does: lanes that advance together and can be changed during the run; by default with
@@ -184,6 +188,11 @@ int geomint_remove(geomint *handle, size_t lane);
    parameter acts at once; for another one all lanes restart. */
 int geomint_set(geomint *handle, size_t lane, const char *key, const char *value);
 int geomint_slide(geomint *handle, size_t lane, const char *key, double position);
+/* Restarts all lanes from a point of a phase plane or a section: at a pixel of the last picture, counted from its top
+   left corner. Without effect elsewhere in the picture. It must have been drawn by GEOMINT_PAINTER=own. */
+int geomint_point(geomint *handle, double across, double down);
+/* Turns the camera of a picture in space by degrees, and multiplies its zoom. */
+int geomint_look(geomint *handle, double azimuth, double elevation, double zoom);
 /* Presses a key that has one meaning in the explorer: ".", ",", "B", "r", "tab", "c", "x", "o", "u", "PgUp", "PgDn",
    "Home" or "End". A key acts on the selected lane: "selected" of geomint_view. */
 int geomint_press(geomint *handle, const char *key);
@@ -194,9 +203,14 @@ int geomint_press(geomint *handle, const char *key);
    second is an array of the schemes that fit, as geomint_text describes one. */
 const char *geomint_view(geomint *handle);
 const char *geomint_schemes(geomint *handle);
+/* The same for two command lines: "picture" draws the lanes as they are, "explorer" opens their present schemes and
+   parameters from the start. */
+const char *geomint_commands(geomint *handle);
 
 /* ---- pictures ---- */
 
+/* Chooses the colours of the pictures that follow: "light", as after opening, or "dark". */
+int geomint_theme(geomint *handle, const char *name);
 /* Draws all lanes in their current state into rgba: height rows of width * 4 bytes, the top row first; red,
    green, blue, and 255. Width and height are from 64 to 16384 pixels. A scene may show its past, so the first
    picture repeats the steps made so far in a copy of each lane. `scale` is the factor of letters and lines,

@@ -200,6 +200,7 @@ void geomint_close(geomint *handle)
     if (handle) {
         const struct gm_call call = gm_call_begin(handle);
         gm_arena_close(handle->arena);
+        gm_canvas_close(handle->kept.canvas);
         free(handle->text);
         gm_call_end(&call);
         free(handle);
@@ -278,6 +279,25 @@ int geomint_step(geomint *handle, size_t lane, int64_t steps)
     if (gm_handle_has(handle, lane) && steps > 0) {
         const int64_t made = run_of(handle, lane)->steps;
         drive_to(handle, lane, steps < GM_MOST_STEPS - made ? made + steps : GM_MOST_STEPS, GM_NEVER);
+    }
+    return gm_call_end(&call);
+}
+
+int geomint_change(geomint *handle, size_t lane, int64_t step, const char *text)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (gm_handle_has(handle, lane) && gm_handle_given(handle, text, "change")) {
+        struct gm_request *request = &handle->words;
+        if (handle->session || step < run_of(handle, lane)->steps) {
+            gm_handle_refuse(handle, GEOMINT_USAGE,
+                             handle->session ? "explored lanes are changed by geomint_set and geomint_switch"
+                                             : "the lane has made this step");
+        } else if (gm_change_add(request, lane, step, text) &&
+                   !gm_change_check(request, &request->changes[request->change_count - 1], handle->message)) {
+            request->change_count--;
+            free(request->changes[request->change_count].text);
+            gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
     }
     return gm_call_end(&call);
 }

@@ -11,6 +11,7 @@
 #include "app/words/names.h"
 #include "core/quantity.h"
 #include "library/geomint.h"
+#include "render/pixels/canvas.h"
 
 /* A handle of the library holds a request, its lanes, and copies of the lanes, which are drawn. */
 
@@ -23,6 +24,14 @@ struct gm_handle_lane {
     double *scratch;                              /* space for the largest derived quantity */
 };
 
+/* The canvas of the last picture, with fonts, which take longer than a picture. Only that of the program's own
+   rasteriser can be kept. */
+struct gm_kept_canvas {
+    struct gm_canvas *canvas; /* NULL: none */
+    struct gm_appearance look;
+    char painter[16]; /* the environment's word for it */
+};
+
 struct geomint {
     struct gm_arena *arena;           /* owns the words, the session, the lanes and their copies */
     struct gm_request words;          /* read from the words of the opening */
@@ -30,7 +39,9 @@ struct geomint {
     struct gm_session *session;       /* NULL: the lanes are driven one by one */
     struct gm_shot *shot;             /* the session's */
     size_t mark;                      /* in the arena, before the lanes of a session */
-    struct gm_chosen chosen;          /* observables of a row */
+    enum gm_theme theme;              /* of pictures */
+    struct gm_kept_canvas kept;
+    struct gm_chosen chosen; /* observables of a row */
     struct gm_handle_lane *lanes;
     struct gm_drive *drawn; /* a lane for each, which is recorded step by step; NULL: nothing was drawn */
     char *text;

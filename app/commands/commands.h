@@ -34,6 +34,8 @@ struct gm_options {
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *measure, *region, *judge, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
+    const char *lesson; /* a page's file; NULL: not given */
+    const char *tour;   /* the tour of a page; NULL: none */
     const char *painter;
     const char *format_name;
     enum gm_engine engine; /* auto, if it is not given */

@@ -152,6 +152,8 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
             last.begin = comma + 1;
         }
         offer_observables(&last, scene);
+    } else if (strcmp(option->name, "--tour") == 0) {
+        offer_files(stem, GM_FILE_TOUR);
     } else if (strcmp(option->name, "--retry") == 0) {
         offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
@@ -270,7 +272,8 @@ static void offer_options(const struct gm_command_row *command, const char *word
 static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
 {
     static const char *const lists[] = {"scenes", "systems", "rooms", "schemes", "figures", "tours"};
-    static const unsigned of_scenes = GM_TUI | GM_RUN | GM_RENDER | (GM_CHARTS & ~(unsigned)GM_CERTIFY);
+    static const unsigned of_scenes =
+        GM_TUI | GM_RUN | GM_RENDER | GM_WEB | (GM_CHARTS & ~(unsigned)GM_CERTIFY);
     const struct stem stem = {.begin = word};
     const struct gm_scene *of;
     const struct gm_figure *figure;

@@ -5,6 +5,7 @@
 #include "app/words/names.h"
 #include "app/words/request.h"
 #include "core/parameter.h"
+#include "render/layout/appearance.h"
 #include "scenes/common/lane.h"
 
 /* An exploration: lanes of one scene that advance together in model time, the changes made during the run,
@@ -172,6 +173,11 @@ bool gm_session_obey(struct gm_session *session, const struct gm_order *order, c
 
 /* The fitting schemes, the scene's preferred ones first; returns their number, at most GM_FITTING_SCHEMES. */
 size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme **schemes);
+
+/* Command lines: the picture of the lanes as they are, with their changes; the explorer with their present schemes and
+   parameters, as if they had been typed. The caller frees them; NULL when out of memory. */
+char *gm_session_picture_command(const struct gm_session *session, enum gm_theme theme);
+char *gm_session_explorer_command(const struct gm_session *session);
 
 /* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while
    the screen shows another, so neither waits for the other. */

@@ -2,10 +2,12 @@
 /* The browser's loader: FreeType is linked, fontconfig is the four fonts of the folder /fonts, and every other library
    is missing. Threads do their work when they are started, since a page without special headers has none. */
 #include <dlfcn.h>
+#include <errno.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "render/drawing/fonts.h"
 
@@ -161,4 +163,13 @@ int __wrap_pthread_join(pthread_t thread, void **result)
 {
     (void)thread, (void)result;
     return 0;
+}
+
+/* ---- files in memory, for processes that a browser does not start ---- */
+
+int memfd_create(const char *name, unsigned flags)
+{
+    (void)name, (void)flags;
+    errno = ENOSYS;
+    return -1;
 }

@@ -59,6 +59,11 @@ int geomint_slide(geomint *handle, size_t lane, const char *key, double position
 int geomint_press(geomint *handle, const char *key);
 const char *geomint_view(geomint *handle);
 const char *geomint_schemes(geomint *handle);
+const char *geomint_commands(geomint *handle);
+int geomint_point(geomint *handle, double across, double down);
+int geomint_look(geomint *handle, double azimuth, double elevation, double zoom);
+int geomint_change(geomint *handle, size_t lane, int64_t step, const char *change);
+int geomint_theme(geomint *handle, const char *name);
 int geomint_grade(geomint *handle, const char *tour, size_t step);
 const char *geomint_answer(geomint *handle, const char *tour, size_t step);
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);

@@ -720,5 +720,52 @@ status 0 render disc scheme=explicit-euler dt=2 until=1000 --size 320x200
 status 0 render kepler scheme=verlet eccentricity=0.9999 steps=30 --strict --size 320x200
 grep -q 'verlet: warning: energy_error is' err || fail "a picture's warning: $(cat err)"
 
+# a page for a browser: its template comes from another build, and is two lines here
+printf '<p>{{view}}\n</p>\n' >template
+GEOMINT_WEB=$PWD/nowhere refused 3 'could not be read: No such file or directory; ./geomint setup web builds' web disc -o none.html
+export GEOMINT_WEB="$PWD/template"
+mkdir -p systems/deep
+printf 'geomint: 1\ntitle: A </script><b> & "spring"\ncoordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\n' >systems/deep/own.system
+"$geomint" list crouzeix3 --source >systems/own.scheme
+status 0 web systems/deep/own.system scheme=rk4,systems/own.scheme dt=0.1 -o page.html
+grep -qx 'geomint: wrote page.html' err || fail "what web prints: $(cat err)"
+python3 - <<'END' || fail 'the view of a page'
+import json
+page = open("page.html").read()
+assert page.startswith("<p>{") and page.endswith("\n</p>\n") and page.count("<") == 2, page
+view = json.loads(page[3:-5])
+assert view["words"] == ["own.system", "scheme=rk4,own.scheme", "dt=0.1"], view["words"]
+assert view["title"] == 'A </script><b> & "spring"', view["title"]
+assert view["files"] == {name: open(path).read() for name, path in
+                         [("own.system", "systems/deep/own.system"), ("own.scheme", "systems/own.scheme")]}, view["files"]
+END
+status 0 web --tour area --title 'Area for 7b' -o tour.html
+python3 - <<'END' || fail 'the steps of a tour in a page'
+import json
+view = json.loads(open("tour.html").read()[3:-5])
+steps = view["steps"]
+assert view["title"] == "Area for 7b" and len(steps) == 7 and steps[1]["show"] == ["disc", "scheme=explicit-euler", "until=2*pi"], view
+assert steps[5]["changes"] == [{"t": 30, "lane": 0, "text": "scheme=midpoint"}] and steps[5]["until"] == 60, steps[5]
+assert view["tour"] == "area" and not any(step["exercise"] for step in steps), view
+END
+"$geomint" list exercises --source >own.tour
+status 0 web --tour ./own.tour -o tour.html
+python3 - <<'END' || fail 'the exercises of a tour in a page'
+import json
+view = json.loads(open("tour.html").read()[3:-5])
+assert view["tour"] == "own.tour" and view["files"]["own.tour"] == open("own.tour").read(), view
+assert all(step["exercise"] and step["hint"] for step in view["steps"]), view["steps"]
+END
+printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
+refused 1 'wrong.system:4:' web wrong.system -o none.html
+refused 1 'sphere' web disc scheme=sphere -o none.html
+refused 1 'cavity is a room; a browser has no library' web cavity -o none.html
+refused 1 'room is a room; a browser has no library' web --tour room -o none.html
+refused 1 'web takes a scene or --tour' web disc --tour area -o none.html
+refused 3 'none/page.html could not be written: No such file' web disc -o none/page.html
+mkdir other && cp systems/own.scheme other/own.scheme && echo '# another' >>other/own.scheme
+refused 1 'two different files are called own.scheme' web disc scheme=systems/own.scheme,other/own.scheme -o none.html
+[ ! -e none.html ] || fail 'a page was written that is refused'
+
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

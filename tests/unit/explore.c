@@ -312,6 +312,72 @@ static void texts_and_failures(void **unused)
     assert_null(geomint_schemes(NULL));
 }
 
+/* The command line of a picture draws the lanes as they are, with their changes. */
+static void pictures(void **unused)
+{
+    (void)unused;
+    enum { WIDTH = 320, HEIGHT = 200, SIZE = 4 * WIDTH * HEIGHT };
+    unsigned char *light = malloc(SIZE), *dark = malloc(SIZE), *again = malloc(SIZE);
+    assert_int_equal(setenv("GEOMINT_PAINTER", "own", 1), 0);
+    geomint *lab = EXPLORE("scheme=verlet", "until=100");
+    for (int i = 0; i < 8; i++) {
+        good(geomint_forward(lab), lab);
+    }
+    good(geomint_switch(lab, 0, "rk4"), lab);
+    good(geomint_forward(lab), lab);
+    assert_non_null(strstr(geomint_commands(lab), "\"picture\":\"geomint render kepler scheme=verlet"));
+    assert_non_null(strstr(geomint_commands(lab), "steps=9 --changes 0:8:scheme=rk4 --theme light\""));
+    assert_non_null(strstr(geomint_commands(lab), "\"explorer\":\"geomint kepler scheme=rk4"));
+
+    geomint *run = OPEN("scheme=verlet", "eccentricity=0.5", "steps=9");
+    good(geomint_change(run, 0, 8, "scheme=rk4"), run);
+    expect(geomint_change(run, 0, 10, "scheme=rk4"), run, GEOMINT_USAGE, "comes too late");
+    expect(geomint_change(run, 1, 1, "scheme=rk4"), run, GEOMINT_USAGE, "no lane 1");
+    expect(geomint_change(run, 0, 9, "scheme=nothing"), run, GEOMINT_USAGE, "nothing");
+    good(geomint_step(run, 0, 9), run);
+    expect(geomint_change(run, 0, 8, "scheme=rk4"), run, GEOMINT_USAGE, "has made this step");
+    expect(geomint_change(lab, 0, 20, "scheme=rk4"), lab, GEOMINT_USAGE, "geomint_switch");
+    same(lab, 0, run, 0);
+
+    expect(geomint_point(lab, 1, 1), lab, GEOMINT_USAGE, "no picture");
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, light), lab);
+    expect(geomint_theme(lab, "grey"), lab, GEOMINT_USAGE, "light or dark");
+    good(geomint_theme(lab, "dark"), lab);
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, dark), lab);
+    assert_true(light[0] > 200 && dark[0] < 50);
+    good(geomint_theme(lab, "light"), lab);
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, again), lab);
+    assert_memory_equal(light, again, SIZE);
+    geomint_close(run);
+    geomint_close(lab);
+
+    lab = geomint_explore(WORDS("system", "H=p^2/2 - cos(q)", "q=1", "p=0", "scheme=verlet", "show=q:p"));
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, light), lab);
+    double before[2], after[2];
+    memcpy(before, geomint_state(lab, 0, NULL, NULL), sizeof before);
+    good(geomint_point(lab, 1, 1), lab);
+    memcpy(after, geomint_state(lab, 0, NULL, NULL), sizeof after);
+    assert_memory_equal(before, after, sizeof before);
+    good(geomint_point(lab, WIDTH / 3., HEIGHT / 2.), lab);
+    memcpy(after, geomint_state(lab, 0, NULL, NULL), sizeof after);
+    assert_true(before[0] != after[0]);
+    geomint_close(lab);
+
+    lab = geomint_explore(WORDS("couette"));
+    good(geomint_draw(lab, WIDTH, HEIGHT, 1, light), lab);
+    expect(geomint_point(lab, 1, 1), lab, GEOMINT_USAGE, "no points");
+    geomint_close(lab);
+
+    assert_int_equal(geomint_look(NULL, 1, 1, 1), GEOMINT_MEMORY);
+    assert_int_equal(geomint_point(NULL, 1, 1), GEOMINT_MEMORY);
+    assert_int_equal(geomint_theme(NULL, "dark"), GEOMINT_MEMORY);
+    assert_int_equal(geomint_change(NULL, 0, 1, "dt=1"), GEOMINT_MEMORY);
+    assert_null(geomint_commands(NULL));
+    free(light);
+    free(dark);
+    free(again);
+}
+
 /* An exercise is graded as `geomint grade` does it. */
 static void exercises_are_graded(void **unused)
 {
@@ -344,6 +410,7 @@ int main(void)
         cmocka_unit_test(time_goes_back),     cmocka_unit_test(parameters_are_set),
         cmocka_unit_test(lanes_come_and_go),  cmocka_unit_test(keys_are_pressed),
         cmocka_unit_test(texts_and_failures), cmocka_unit_test(exercises_are_graded),
+        cmocka_unit_test(pictures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint web: a page of HTML for a browser, which contains the program, a view, and the files that it names. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/native/cache.h"
+#include "app/output/say.h"
+#include "app/tours/tour.h"
+#include "app/words/typed_file.h"
+#include "app/words/words.h"
+#include "core/arena.h"
+#include "render/files/regular_file.h"
+#include "render/files/temporary.h"
+#include "render/message.h"
+
+enum { LARGEST_PAGE = 1 << 26, LARGEST_FILE = 1 << 22 };
+
+struct lesson {
+    const struct gm_options *options;
+    const char *title;
+    const struct gm_tour *tour;
+    const struct gm_arguments *words; /* of the view */
+    struct gm_arguments *files;       /* name and text of each */
+};
+
+/* The word without the folders of its file, which is added to the page. */
+static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
+{
+    char message[GM_MESSAGE];
+    struct gm_file file;
+    size_t length;
+    if (!gm_file_find(kind, word, &file) || file.built_in) {
+        return word;
+    }
+    const char *name = basename(file.path);
+    char *text = gm_file_read(&file, LARGEST_FILE, &length, message);
+    gm_command_end_if(lesson->options, !text, GM_EXIT_FILE, "%s", message);
+    gm_arena_keep(lesson->options->arena, text, free);
+    for (int i = 0; i < lesson->files->count; i += 2) {
+        if (strcmp(lesson->files->words[i], name) == 0) {
+            gm_command_end_if(lesson->options, strcmp(lesson->files->words[i + 1], text) != 0, GM_EXIT_USAGE,
+                              "two different files are called %.200s; rename one of them", name);
+            return gm_arena_print(lesson->options->arena, "%s", name);
+        }
+    }
+    gm_arguments_add(lesson->files, name);
+    gm_arguments_add(lesson->files, text);
+    return gm_arena_print(lesson->options->arena, "%s", name);
+}
+
+/* Writes words as a list, with their files added to the page. */
+static void put_words(const struct lesson *lesson, struct gm_row *row, const char *key,
+                      const struct gm_arguments *words)
+{
+    struct gm_row list = gm_row_open(row, key, ']');
+    for (int i = 0; i < words->count; i++) {
+        const char *word = words->words[i], *value = gm_word_after(word, "scheme");
+        if (i == 0) {
+            gm_command_end_if(lesson->options, gm_file_is(GM_FILE_ROOM, word), GM_EXIT_USAGE,
+                              "%.60s is a room; a browser has no library for its sparse equations", word);
+            word = take_file(lesson, GM_FILE_SYSTEM, word);
+        }
+        for (const char *so_far = "scheme="; value; so_far = word) {
+            const size_t length = gm_word_first(value);
+            const char *scheme = gm_arena_print(lesson->options->arena, "%.*s", (int)length, value);
+            word = gm_arena_print(lesson->options->arena, "%s%s%s", so_far,
+                                  take_file(lesson, GM_FILE_SCHEME, scheme), value[length] ? "," : "");
+            value = value[length] ? value + length + 1 : NULL;
+        }
+        gm_row_text(&list, NULL, word);
+    }
+}
+
+static void put_tour(const struct lesson *lesson, struct gm_row *view)
+{
+    gm_row_put(view, "tour %s", take_file(lesson, GM_FILE_TOUR, lesson->options->tour));
+    struct gm_row steps = gm_row_open(view, "steps", ']');
+    for (size_t i = 0; i < lesson->tour->count; i++) {
+        const struct gm_tour_step *step = &lesson->tour->steps[i];
+        struct gm_row row = gm_row_open(&steps, NULL, '}');
+        gm_row_put(&row, "title %s, say %s, ask %s, exercise %d, hint %s, answer %s", step->title, step->say,
+                   step->ask, step->expectation_count > 0, step->hint, step->answer);
+        gm_row_put(&row, "watch %s, try %s, study %s, until %.17g, seconds %.17g", step->watch, step->attempt,
+                   step->study_words, step->until, step->seconds);
+        if (step->show) {
+            put_words(lesson, &row, "show", gm_arguments_of(lesson->options->arena, step->show));
+        }
+        struct gm_row changes = gm_row_open(&row, "changes", ']');
+        for (size_t k = 0; k < step->change_count; k++) {
+            const struct gm_tour_change *change = &step->changes[k];
+            struct gm_row one = gm_row_open(&changes, NULL, '}');
+            gm_row_put(&one, "t %.17g, lane %.0f, text %s", change->t, (double)change->lane, change->text);
+        }
+    }
+}
+
+/* The view as JSON. A < is written as its number, since </script> would end the element of the page. */
+static const char *print_view(const struct lesson *lesson)
+{
+    struct gm_text_stream writing;
+    struct gm_arena *arena = lesson->options->arena;
+    FILE *stream = gm_stream_begin(&writing);
+    gm_arena_need(arena, stream);
+    struct gm_row view = gm_row_begin(stream);
+    gm_row_put(&view, "version %s, title %s", GM_VERSION, lesson->title);
+    put_words(lesson, &view, "words", lesson->words);
+    if (lesson->tour) {
+        put_tour(lesson, &view);
+    }
+    struct gm_row files = gm_row_open(&view, "files", '}');
+    for (int i = 0; i < lesson->files->count; i += 2) {
+        gm_row_text(&files, lesson->files->words[i], lesson->files->words[i + 1]);
+    }
+    gm_row_close(&view, "");
+    const char *text = gm_arena_keep(arena, gm_stream_end(&writing), free);
+    stream = gm_stream_begin(&writing);
+    gm_arena_need(arena, text && stream);
+    for (; *text; text++) {
+        fputs(*text == '<' ? "\\u003c" : (char[]){*text, '\0'}, stream);
+    }
+    text = gm_arena_keep(arena, gm_stream_end(&writing), free);
+    gm_arena_need(arena, text);
+    return text;
+}
+
+/* The page that the build for the browser made. */
+static const char *read_page(const struct gm_options *options)
+{
+    char kernel[GM_CACHE_PATH], reason[GM_REGULAR_REASON];
+    const char *given = getenv("GEOMINT_WEB");
+    size_t size;
+    gm_kernel_folder(kernel, sizeof kernel);
+    const char *path =
+        given && *given ? given : gm_arena_print(options->arena, "%s/../web/page.html", kernel);
+    char *page = gm_regular_read(path, LARGEST_PAGE, &size, reason);
+    gm_command_end_if(options, !page, GM_EXIT_FILE,
+                      "%.200s could not be read: %s; ./geomint setup web builds the part for the browser",
+                      path, reason);
+    return gm_arena_keep(options->arena, page, free);
+}
+
+static void read_tour(const struct gm_options *options, struct gm_tour *tour)
+{
+    char message[GM_MESSAGE];
+    struct gm_file file;
+    bool unreadable = false;
+    const bool found = gm_tour_find(options->tour, &file, &unreadable, message);
+    gm_command_end_if(options, !found || !gm_tour_read(tour, &file, message),
+                      found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    gm_arena_keep(options->arena, tour, gm_tour_close);
+}
+
+int gm_command_web(const struct gm_options *options)
+{
+    char slot[GM_PAGE_SLOT];
+    struct lesson lesson = {
+        .options = options, .words = &options->arguments, .files = gm_arguments_in(options->arena)};
+    struct gm_tour *tour = gm_arena_take(options->arena, 1, sizeof *tour);
+    const struct gm_scene *scene = NULL;
+    gm_command_end_if(options, options->tour && lesson.words->count > 0, GM_EXIT_USAGE,
+                      "web takes a scene or --tour, which has scenes of its own");
+    if (options->tour) {
+        read_tour(options, tour);
+        lesson.tour = tour;
+    } else if (lesson.words->count > 0) {
+        scene = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES)->scene;
+    }
+    lesson.title = options->look.title ? options->look.title
+                   : lesson.tour       ? tour->title
+                   : scene             ? scene->title
+                                       : "geomint";
+    const char *page = read_page(options), *view = print_view(&lesson),
+               *path = options->lesson ? options->lesson : "lesson.html";
+    struct gm_text_stream writing;
+    FILE *stream = gm_stream_begin(&writing);
+    gm_arena_need(options->arena, stream);
+    while (gm_page_next(stream, &page, slot)) {
+        fputs(view, stream);
+    }
+    char *text = gm_arena_keep(options->arena, gm_stream_end(&writing), free);
+    gm_arena_need(options->arena, text);
+    const int problem = gm_temporary_write(path, text, strlen(text));
+    gm_command_end_if(options, problem, GM_EXIT_FILE, "%.300s could not be written: %s", path,
+                      strerror(problem));
+    gm_complain("wrote %s", path);
+    return GM_EXIT_OK;
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program in a worker of the page: carries out what the page orders, advances the lanes in time, draws them into pixels,
+// and answers with the state of everything. The page has all controls, and waits for no step.
+'use strict';
+
+const SLICE = 12; // milliseconds of steps between two looks at orders
+const LATE = 100; // milliseconds that the steps may be late before the clock waits for them
+
+let web, lab = 0; // the program, and its handle
+let view = null; // what geomint_view has last described
+let shape = {width: 0, height: 0, scale: 1, dark: false}, pixels = 0, capacity = 0;
+let playing = false, speed = 1, clock = 0, clockTime = 0, late = false;
+let agenda = [], due = []; // changes of a tour at their times, and its stop, {t, lane, text}; those that are to come
+let shown = true, stale = false, planned = false; // the page has the last frame; there is something new; a tick will come
+
+const text = at => at ? web.UTF8ToString(at) : null;
+
+// Calls a function of geomint.h. Texts are copied for it, and a list of texts is a count and an array.
+function call(name, ...values) {
+    const taken = [], copy = word => {
+        const length = web.lengthBytesUTF8(word) + 1, at = web.___wrap_malloc(length);
+        taken.push(at);
+        web.stringToUTF8(word, at, length);
+        return at;
+    };
+    const passed = values.flatMap(value => {
+        if (!Array.isArray(value)) {
+            return [typeof value === 'string' ? copy(value) : value];
+        }
+        const places = value.map(copy), at = web.___wrap_malloc(4 * places.length + 4);
+        taken.push(at);
+        web.HEAP32.set(places, at / 4);
+        return [places.length, at];
+    });
+    const result = web['_geomint_' + name](...passed);
+    taken.forEach(at => web._free(at));
+    return result;
+}
+
+const sentence = handle => text(call('message', handle));
+const look = () => { view = JSON.parse(text(call('view', lab))); };
+const setClock = () => { clock = performance.now(); clockTime = view.t; };
+
+// ---- time ----
+
+const sign = () => view.backwards ? -1 : 1;
+const ended = () => view.lanes.every(lane => lane.status !== 'ok');
+
+// Makes the changes of the tour that are due.
+function keepAgenda() {
+    while (due.length > 0 && !view.backwards && view.t >= due[0].t - 1e-9 * Math.abs(due[0].t)) {
+        const change = due.shift(), [key, ...value] = (change.text || '').split('=');
+        if (!change.text) {
+            playing = false;
+            postMessage({stop: true});
+            return;
+        }
+        view.lanes.forEach((_, lane) => {
+            if (change.lane < 0 || change.lane === lane) {
+                call(...key === 'scheme' ? ['switch', lab, lane, value.join('=')] : ['set', lab, lane, key, value.join('=')]);
+            }
+        });
+        look();
+    }
+}
+
+function advance(wanted) {
+    const limit = due.length > 0 && !view.backwards ? Math.min(wanted, due[0].t) : wanted;
+    call('advance', lab, limit);
+    look();
+    keepAgenda();
+}
+
+// Advances for a slice of time towards the time that is due, in parts whose cost is known.
+let part = 0;
+function step() {
+    const begun = performance.now(), from = view.t;
+    const goal = clockTime + sign() * speed * (begun - clock) / 1000;
+    let now = begun;
+    part = part || speed / 1000;
+    while (playing && sign() * (goal - view.t) > 0 && now - begun < SLICE) {
+        const before = view.t, next = sign() * Math.min(sign() * goal, sign() * (before + sign() * part));
+        advance(next);
+        const cost = performance.now() - now;
+        now += cost;
+        part *= cost < SLICE / 4 ? 2 : cost > SLICE ? 0.5 : 1;
+        if (next === goal) {
+            break;
+        }
+    }
+    late = sign() * (goal - view.t) > speed * LATE / 1000 && now - begun >= SLICE;
+    if (late) {
+        setClock();
+    }
+    if (ended()) {
+        playing = false;
+    }
+    stale = stale || view.t !== from || !playing;
+}
+
+function draw(handle, width, height, scale, dark) {
+    const size = 4 * width * height;
+    if (size > capacity) {
+        web._free(pixels);
+        pixels = web.___wrap_malloc(size);
+        capacity = size;
+    }
+    call('theme', handle, dark ? 'dark' : 'light');
+    const status = call('draw', handle, width, height, scale, pixels);
+    const refused = status === 0 || status === 2 ? null : sentence(handle); // 2: a lane has failed, and is drawn
+    return {refused, width, height, rgba: web.HEAPU8.slice(pixels, pixels + size).buffer};
+}
+
+function show() {
+    const begun = performance.now(), picture = draw(lab, shape.width, shape.height, shape.scale, shape.dark);
+    shown = stale = false;
+    postMessage({picture, view, playing, late, cost: performance.now() - begun}, [picture.rgba]);
+}
+
+function plan() {
+    if (!planned && lab && (playing || stale)) {
+        planned = true;
+        setTimeout(tick, playing && !stale ? 4 : 0);
+    }
+}
+
+function tick() {
+    planned = false;
+    if (lab && playing) {
+        step();
+    }
+    if (lab && stale && shown && shape.width > 0) {
+        show();
+    }
+    if (playing || (stale && shown)) {
+        plan();
+    }
+}
+
+// ---- orders of the page ----
+
+// An order of geomint.h for the lanes; returns the sentence of a refusal or "".
+function order(name, ...values) {
+    const status = call(name, lab, ...values);
+    const refusal = status === 0 || status === 2 ? '' : sentence(lab);
+    const before = view.t;
+    look();
+    if (view.t < before) { // it is shown again
+        due = agenda.filter(({t}) => t > view.t);
+    }
+    setClock();
+    stale = true;
+    return refusal;
+}
+
+const orders = {
+    async start({program, wasm, fonts, files}) {
+        const unpack = async packed => {
+            const letters = atob(packed), bytes = new Uint8Array(letters.length);
+            for (let i = 0; i < letters.length; i++) {
+                bytes[i] = letters.charCodeAt(i);
+            }
+            return new Uint8Array(await new Response(
+                new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+        };
+        const script = URL.createObjectURL(new Blob([await unpack(program)], {type: 'text/javascript'}));
+        importScripts(script);
+        URL.revokeObjectURL(script);
+        web = await geomint({wasmBinary: await unpack(wasm)});
+        web.FS.mkdir('/fonts');
+        for (const [name, font] of Object.entries(fonts)) {
+            web.FS.writeFile(`/fonts/${name}`, await unpack(font));
+        }
+        for (const [name, content] of Object.entries(files)) {
+            web.FS.writeFile(`/${name}`, content);
+        }
+        const scenes = [];
+        for (let i = 0, name; (name = text(call('scene_name', i))); i++) {
+            scenes.push(name);
+        }
+        return {scenes};
+    },
+    // Opens words; refused ones leave what is open as it is.
+    open({words, changes}) {
+        const opened = call('explore', words);
+        if (call('lanes', opened) === 0) {
+            const refused = sentence(opened);
+            call('close', opened);
+            return {refused};
+        }
+        call('close', lab);
+        lab = opened;
+        agenda = changes || [];
+        due = [...agenda];
+        playing = false;
+        part = 0;
+        look();
+        setClock();
+        stale = true;
+        return {view, schemes: JSON.parse(text(call('schemes', lab))), span: Math.abs(view.ahead - view.t)};
+    },
+    shape(wanted) { shape = wanted; stale = true; },
+    shown() { shown = true; },
+    // Answers when the page has everything.
+    async settled() {
+        while (stale || !shown) {
+            await new Promise(done => setTimeout(done, 5));
+        }
+    },
+    play(wanted) {
+        playing = wanted && !ended();
+        setClock();
+        stale = true;
+    },
+    speed(wanted) {
+        setClock();
+        speed = wanted;
+    },
+    // Runs ahead to a time of a tour.
+    ahead(t) {
+        advance(t);
+        setClock();
+        stale = true;
+    },
+    order(values) { return order(...values); },
+    grade({tour, step}) {
+        const passed = call('grade', lab, tour, step) === 0, verdict = sentence(lab);
+        return {passed, verdict, answer: text(call('answer', lab, tour, step))};
+    },
+    commands() { call('theme', lab, 'light'); return JSON.parse(text(call('commands', lab))); },
+    certificate(name) {
+        const handle = call('certify', name, []), found = text(call('text', handle)), refused = sentence(handle);
+        call('close', handle);
+        return found ? JSON.parse(found) : {refused};
+    },
+    // The picture of a command line, `geomint render` of these words with these changes.
+    still({words, changes}) {
+        const handle = call('open', words), counted = step => [step | 0, Math.floor(step / 2 ** 32)];
+        for (const [, lane, step, change] of changes) {
+            call('change', handle, Number(lane), ...counted(Number(step)), change);
+        }
+        for (let lane = 0; lane < call('lanes', handle); lane++) {
+            // the low half of the number of steps left: 0 is the end
+            for (let left; (left = call('steps_left', handle, lane) | 0) !== 0;) {
+                call('step', handle, lane, ...counted(left < 0 ? 1000 : left));
+            }
+        }
+        const picture = draw(handle, 1280, 720, 1, false);
+        call('close', handle);
+        return picture;
+    },
+};
+
+onmessage = async ({data: {id, name, value}}) => {
+    try {
+        const answer = await orders[name](value);
+        postMessage({id, answer});
+        plan();
+    } catch (error) {
+        postMessage({crash: String(error && error.message || error)});
+    }
+};
+self.onunhandledrejection = event => postMessage({crash: String(event.reason)});

@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of `geomint web` in headless Chromium against the native library: page.py BUILD PAGE.html [SCREENSHOTS].
+What its controls do must give the numbers that the same verbs of geomint.h give, its PNG the pixels of `geomint render`, and
+nothing may be requested of the network or complained about in the console."""
+import asyncio
+import base64
+import ctypes
+import json
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.parse
+import urllib.request
+
+import websockets
+
+build, template = (os.path.abspath(path) for path in sys.argv[1:3])
+shots = sys.argv[3] if len(sys.argv) > 3 else None
+folder = tempfile.mkdtemp()
+environment = dict(os.environ, GEOMINT_WEB=template, GEOMINT_PAINTER="own")
+failures = []
+
+
+def check(what, good, *details):
+    print(" " if good else "failed:", what, *([] if good else details), flush=True)
+    if not good:
+        failures.append(what)
+
+
+# ---- the native library ----
+
+library = ctypes.CDLL(build + "/library/libgeomint.so.1")
+for name in ["explore", "view", "message", "commands"]:
+    getattr(library, "geomint_" + name).restype = ctypes.c_void_p if name == "explore" else ctypes.c_char_p
+
+
+class Native:
+    def __init__(self, *words):
+        texts = (ctypes.c_char_p * len(words))(*map(str.encode, words))
+        self.lab = ctypes.c_void_p(library.geomint_explore(len(words), texts))
+
+    def order(self, name, *values):
+        passed = [value.encode() if isinstance(value, str) else ctypes.c_double(value) if isinstance(value, float) else
+                  ctypes.c_size_t(value) for value in values]
+        getattr(library, "geomint_" + name)(self.lab, *passed)
+        return self
+
+    def view(self):
+        return json.loads(library.geomint_view(self.lab))
+
+    def message(self):
+        return library.geomint_message(self.lab).decode()
+
+
+# ---- Chromium ----
+
+class Page:
+    """A tab, by the protocol of the developers' tools."""
+
+    async def open(self, port, url, width=1280, height=800, dark=False, ratio=1):
+        request = urllib.request.Request(f"http://127.0.0.1:{port}/json/new?about:blank", method="PUT")
+        target = json.load(urllib.request.urlopen(request))
+        self.socket = await websockets.connect(target["webSocketDebuggerUrl"], max_size=None)
+        self.number, self.errors, self.requests = 0, [], []
+        for domain in ["Runtime", "Log", "Network", "Page"]:
+            await self.send(domain + ".enable")
+        await self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=ratio,
+                        mobile=width < 600)
+        await self.send("Emulation.setEmulatedMedia",
+                        features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        await self.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+        await self.send("Page.navigate", url=url)
+        return await self.until("view !== null && document.body.dataset.frames > 0")
+
+    async def send(self, method, **parameters):
+        self.number += 1
+        await self.socket.send(json.dumps({"id": self.number, "method": method, "params": parameters}))
+        while True:
+            answer = json.loads(await asyncio.wait_for(self.socket.recv(), 60))
+            kind, about = answer.get("method", ""), answer.get("params", {})
+            if kind == "Runtime.exceptionThrown" or kind == "Log.entryAdded" and about["entry"]["level"] == "error":
+                self.errors.append(json.dumps(about)[:300])
+            elif kind == "Runtime.consoleAPICalled" and about["type"] in ["error", "warning", "assert"]:
+                self.errors.append(json.dumps(about)[:300])
+            elif kind == "Network.requestWillBeSent" and not about["request"]["url"].startswith(("file:", "blob:", "data:")):
+                self.requests.append(about["request"]["url"])
+            elif answer.get("id") == self.number:
+                if "error" in answer:
+                    raise RuntimeError(answer["error"])
+                return answer["result"]
+
+    async def value(self, expression):
+        answer = await self.send("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True,
+                                 userGesture=True)
+        if "exceptionDetails" in answer:
+            raise RuntimeError(expression + ": " + json.dumps(answer["exceptionDetails"])[:400])
+        return answer["result"].get("value")
+
+    async def until(self, condition, seconds=30):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            try:
+                if await self.value(f"Boolean({condition})"):
+                    return self
+            except RuntimeError:
+                pass # the page is not there yet
+            await asyncio.sleep(0.05)
+        raise RuntimeError(f"not within {seconds} s: {condition}: {self.errors} {await self.value('document.body.innerText')}")
+
+    async def act(self, expression):
+        """Does something, and waits until the page shows all of it."""
+        await self.value(expression)
+        await self.value("new Promise(done => setTimeout(done, 30)).then(() => ask('settled'))")
+
+    async def click(self, identity):
+        await self.act(f"document.getElementById('{identity}').click()")
+
+    async def view(self):
+        return await self.value("view")
+
+    async def shot(self, name):
+        if shots:
+            data = (await self.send("Page.captureScreenshot", format="png"))["data"]
+            with open(os.path.join(shots, name + ".png"), "wb") as file:
+                file.write(base64.b64decode(data))
+
+
+def numbers(view):
+    return [[lane[key] for key in ["scheme", "t", "steps", "status", "values"]] for lane in view["lanes"]]
+
+
+def lesson(name, *words, fails=None):
+    path = os.path.join(folder, name)
+    answer = subprocess.run([build + "/app/geomint", "web", *words, "-o", path], env=environment, capture_output=True,
+                            text=True)
+    check(f"geomint web {shlex.join(words)[:60]}", (answer.returncode != 0) == bool(fails), answer.stderr)
+    return "file://" + urllib.parse.quote(path)
+
+
+def pixels(path):
+    return subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                          capture_output=True, check=True).stdout
+
+
+async def controls(port):
+    words = ["kepler", "scheme=verlet,rk4", "dt=0.05"]
+    url = lesson("kepler.html", *words, "--title", "<b>Kepler</b> & </script><script>document.title='no'</script>")
+    page, native = await Page().open(port, url), Native(*words)
+    check("the title is text", (await page.value("document.title")).startswith("<b>Kepler</b> & </script>"))
+    for _ in range(40):
+        await page.value("order('forward')")
+        native.order("forward")
+    await page.click("forward")
+    native.order("forward")
+    check("steps", numbers(await page.view()) == numbers(native.view()), await page.view())
+    await page.act("document.querySelector('[data-scheme=gauss4]').click()")
+    check("a click switches", numbers(await page.view()) == numbers(native.order("switch", 0, "gauss4").view()))
+    await page.act("document.querySelector('[data-scheme=midpoint]').dispatchEvent(new MouseEvent('click', {shiftKey: true}))")
+    check("a click with shift forks", numbers(await page.view()) == numbers(native.order("fork", 0, "midpoint").view()))
+    await page.click("forward")
+    check("steps after that", numbers(await page.view()) == numbers(native.order("forward").view()))
+
+    await page.click("copy")
+    link, command = await page.value("at('link').textContent"), await page.value("at('command').textContent")
+    check("the command line", command == json.loads(library.geomint_commands(native.lab))["picture"], command)
+    await page.click("close")
+    await page.click("save")
+    saved, made = folder + "/kepler.png", folder + "/native.png"
+    for _ in range(100):
+        if os.path.exists(saved):
+            break
+        await asyncio.sleep(0.1)
+    subprocess.run([build + "/app/geomint", *shlex.split(command)[1:], "--painter", "own", "-o", made], check=True,
+                   capture_output=True)
+    check("the PNG has the pixels of geomint render", pixels(saved) == pixels(made))
+    other = await Page().open(port, link)
+    check("the link opens the schemes", [lane["scheme"] for lane in (await other.view())["lanes"]] ==
+          [lane["scheme"] for lane in native.view()["lanes"]], link)
+
+    await page.click("reverse")
+    await page.click("forward")
+    check("time is turned", numbers(await page.view()) == numbers(native.order("reverse").order("forward").view()))
+    await page.act("(slider => { slider.value = 0.5; slider.dispatchEvent(new Event('input')); })(at('parameter-dt').previousSibling)")
+    native.order("slide", (await page.view())["selected"], "dt", 0.5)
+    check("a slider", [(p["key"], p["value"]) for p in (await page.view())["parameters"]] ==
+          [(p["key"], p["value"]) for p in native.view()["parameters"]])
+    check("a slider's state", numbers(await page.view()) == numbers(native.view()))
+
+    wrong, right = "H=p^2/2 - cos(q q=1 p=0", "H=p^2/2 - cos(q) q=1 p=0 scheme=verlet"
+    await page.act(f"at('words').value = {json.dumps(wrong)}; at('formula').requestSubmit()")
+    refusal = Native("system", "H=p^2/2 - cos(q q=1 p=0").message()
+    check("a wrong formula", await page.value("at('fault').textContent") == refusal, refusal)
+    check("the view stays", (await page.view())["scene"] == "kepler")
+    await page.shot("fault")
+    await page.act(f"at('words').value = {json.dumps(right)}; at('formula').requestSubmit()")
+    native = Native("system", "H=p^2/2 - cos(q)", "q=1", "p=0", "scheme=verlet")
+    await page.click("forward")
+    check("a right formula", numbers(await page.view()) == numbers(native.order("forward").view()))
+
+    await page.value("play(true)")
+    await page.until("view.t > 1")
+    await page.value("play(false)")
+    await page.value("at('line').value = 0.5; at('line').dispatchEvent(new Event('input'))")
+    await page.until("view.t <= 0.5")
+    check("playing, and the time line", True)
+
+    await page.value("void ask('order', ['nothing'])")
+    await page.until("!at('crash').hidden")
+    await page.click("revive")
+    await page.until("at('crash').hidden && view.t === 0")
+    check("a crash has a sentence and a way on", "stopped" in await page.value("at('crash-text').textContent"))
+    for tab in page, other:
+        check("no errors in the console", not tab.errors, tab.errors)
+        check("no requests", not tab.requests, tab.requests)
+
+
+async def other_views(port):
+    page = await Page().open(port, lesson("any.html", "disc") + "#nowhere&dt=.1")
+    check("unknown words in a link", "nowhere" in await page.value("at('notice').textContent"))
+    check("the default view", (await page.view())["scene"] == "disc")
+    text = 'name: <img src=x onerror="document.title=1">\nabout: </script><b>\ncoordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\n'
+    with open(folder + "/mine.system", "w", encoding="utf-8") as file:
+        file.write(text)
+    page = await Page().open(port, lesson("mine.html", folder + "/mine.system"))
+    check("a file goes along, its name is text", (await page.view())["title"].startswith("<img"), await page.view())
+    page = await Page().open(port, lesson("tour.html", "--tour", "area"))
+    await page.click("next")
+    check("a lesson", await page.value("at('tour-title').textContent") == "The simplest scheme")
+    await page.click("next")
+    await page.until("view.t > 1")
+    check("its answer runs", "Larger" in await page.value("at('tour-text').textContent"))
+    page = await Page().open(port, lesson("exercises.html", "--tour", "exercises"))
+    check("an exercise is graded on request", await page.value("!at('grade').hidden && at('next').textContent === 'next'"))
+    await page.value("ask('ahead', 62.9)")
+    await page.click("grade")
+    native = Native("disc", "scheme=rk4", "dt=pi/6").order("advance", 62.9)
+    native.order("grade", "exercises", 1)
+    check("an exercise that is not passed", await page.value("at('verdict').textContent") == native.message())
+    await page.act("order('set', 0, 'dt', '1').then(() => order('switch', 0, 'verlet')).then(() => order('restart'))")
+    await page.value("ask('ahead', 62.9)")
+    await page.click("grade")
+    await page.shot("passed")
+    check("an exercise that is passed", (await page.value("at('verdict').textContent")).startswith("Passed"),
+          await page.value("at('tour-text').textContent"))
+    lesson("none/none.html", "disc", fails=True)
+    lesson("none.html", "system", "H=p^2/2 + (", fails=True)
+    check("refused before it is written", not os.path.exists(folder + "/none.html"))
+
+
+async def looks(port):
+    views = {"disc": ["disc"], "kepler": ["kepler"], "formula": ["system", "H=p^2/2 - cos(q)", "q=1", "p=0"],
+             "tour": ["--tour", "area"], "vortices": ["vortices"]}
+    for name, words in views.items():
+        url = lesson(name + "-look.html", *words)
+        for width, height, ratio in [(1280, 800, 1), (390, 844, 2)]:
+            for dark in False, True:
+                page = await Page().open(port, url, width, height, dark, ratio)
+                await page.value("next()" if name == "tour" else "0")
+                await page.value("play(true)")
+                await asyncio.sleep(1.5)
+                await page.value("play(false)")
+                wide = await page.value("document.documentElement.scrollWidth")
+                check(f"{name} fits {width} pixels", wide <= width, wide)
+                cost = await page.value("document.body.dataset.cost")
+                print("   ", name, width, "draws in", cost, "ms")
+                await page.shot(f"{name}-{width}-{'dark' if dark else 'light'}")
+                if width < 600 and shots:
+                    await page.value("scrollTo(0, 900)")
+                    await page.shot(f"{name}-{width}-{'dark' if dark else 'light'}-below")
+
+
+async def main():
+    profile = tempfile.mkdtemp()
+    chromium = subprocess.Popen(["chromium", "--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--disable-gpu",
+                                 f"--user-data-dir={profile}", "about:blank"], stderr=subprocess.DEVNULL)
+    try:
+        while not os.path.exists(profile + "/DevToolsActivePort"):
+            await asyncio.sleep(0.1)
+        port = open(profile + "/DevToolsActivePort", encoding="ascii").readline().strip()
+        await controls(port)
+        await other_views(port)
+        if shots:
+            await looks(port)
+    finally:
+        chromium.terminate()
+        chromium.wait()
+
+asyncio.run(main())
+print(len(failures), "failed")
+sys.exit(len(failures) > 0)
