@@ -208,10 +208,10 @@ static void resolve(struct gm_arena *arena, void *data)
         const char *names = names_of(arena, system);
         const char *others =
             !naming->searched
-                ? gm_arena_print(arena, "those that list --invariants finds: %s1, %s2, ...", word, word)
-            : naming->unnamed > 0 ? gm_arena_print(arena, "%s1 to %s%zu", word, word, naming->unnamed)
-                                  : "list --invariants finds no other";
-        refuse(arena, naming, "an invariant %.40s (there are %.160s%s %s)", naming->name, names,
+                ? gm_arena_print(arena, " those that list --invariants finds: %s1, %s2, ...", word, word)
+            : naming->unnamed > 0 ? gm_arena_print(arena, " %s1 to %s%zu", word, word, naming->unnamed)
+                                  : " list --invariants finds no other";
+        refuse(arena, naming, "an invariant %.40s (there are %.160s%s%s)", naming->name, names,
                names[0] ? ", and" : "only", others);
     }
     if (!trusted) {

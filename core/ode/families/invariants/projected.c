@@ -84,7 +84,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     }
     memcpy(members->y, held->z, held->n * sizeof *held->z);
     if (!held->holding->constraints) {
-        double square = 0; /* that of a length below the root of the smallest number is 0 */
+        double square = 0; /* 0 of a length below the root of the smallest number */
         for (size_t c = 0; c < held->n; c++) {
             const double moved = held->z[c] - held->next[c];
             square += moved * moved;
