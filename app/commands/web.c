@@ -51,24 +51,34 @@ static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind
     return gm_arena_print(lesson->options->arena, "%s", name);
 }
 
+/* Refuses the user-defined schemes of a word, whose order conditions need numbers of many digits. */
+static void check_schemes(const struct gm_options *options, const char *word)
+{
+    size_t length = 0;
+    for (const char *value = gm_word_after(word, "scheme"); value;
+         value = value[length] ? value + length + 1 : NULL) {
+        struct gm_file file;
+        length = gm_word_first(value);
+        const char *scheme = gm_arena_print(options->arena, "%.*s", (int)length, value);
+        const bool is_file = gm_file_find(GM_FILE_SCHEME, scheme, &file) && !file.built_in;
+        gm_command_end_if(options, is_file || strchr(scheme, '('), GM_EXIT_USAGE,
+                          "%.60s is a user-defined scheme; a browser has no numbers of many digits for it",
+                          scheme);
+    }
+}
+
 /* Writes words as a list, with their files added to the page. */
 static void put_words(const struct lesson *lesson, struct gm_row *row, const char *key,
                       const struct gm_arguments *words)
 {
     struct gm_row list = gm_row_open(row, key, ']');
     for (int i = 0; i < words->count; i++) {
-        const char *word = words->words[i], *value = gm_word_after(word, "scheme");
+        const char *word = words->words[i];
+        check_schemes(lesson->options, word);
         if (i == 0) {
             gm_command_end_if(lesson->options, gm_file_is(GM_FILE_ROOM, word), GM_EXIT_USAGE,
                               "%.60s is a room; a browser has no library for its sparse equations", word);
             word = take_file(lesson, GM_FILE_SYSTEM, word);
-        }
-        for (const char *so_far = "scheme="; value; so_far = word) {
-            const size_t length = gm_word_first(value);
-            const char *scheme = gm_arena_print(lesson->options->arena, "%.*s", (int)length, value);
-            word = gm_arena_print(lesson->options->arena, "%s%s%s", so_far,
-                                  take_file(lesson, GM_FILE_SCHEME, scheme), value[length] ? "," : "");
-            value = value[length] ? value + length + 1 : NULL;
         }
         gm_row_text(&list, NULL, word);
     }

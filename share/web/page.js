@@ -184,7 +184,7 @@ function showLanes() {
             pick.append(make('span', {className: 'state'}, lane.message || lane.status));
         }
         return make('li', null, pick,
-            make('button', {textContent: 'i', title: 'formula, reference, certificate (i)', onclick: () => explain(lane.scheme), data: {'aria-label': `about ${lane.title}`}}),
+            make('button', {textContent: 'i', title: 'formula and reference (i)', onclick: () => explain(lane.scheme), data: {'aria-label': `about ${lane.title}`}}),
             make('button', {textContent: '×', title: 'remove this lane (x)', hidden: view.lanes.length === 1, onclick: () => order('remove', i), data: {'aria-label': `remove ${lane.title}`}}));
     }));
 }
@@ -324,29 +324,22 @@ function seek(forks) {
     at('find').scrollIntoView({block: 'center'});
 }
 
-async function explain(name) {
+function explain(name) {
     const scheme = schemes.find(other => other.scheme === name);
     if (!scheme) {
         return;
     }
     sheet(scheme.title, make('pre', null, scheme.formula), make('p', null, scheme.reference || ''),
+        make('p', null, 'Its claims are measured in a terminal, as the browser has no numbers of many digits:'), make('pre', null, `geomint certify ${scheme.scheme}`),
         make('p', {className: 'soft'}, `For ${scheme.for || 'these equations'}. Order ${scheme.order ?? 'unknown'}. ${scheme.claims.length > 0 ? `Claims: ${scheme.claims.join(', ')}.` : ''}`));
-    at('measure').hidden = false;
-    at('measure').onclick = async () => {
-        at('measure').hidden = true;
-        const found = await ask('certificate', name);
-        at('sheet-text').append(found.refused ? make('p', {className: 'bad'}, found.refused)
-            : make('table', null, ...Object.entries(found).filter(([, value]) => value !== null && typeof value !== 'object')
-                .map(([key, value]) => make('tr', null, make('th', {scope: 'row'}, key.replace(/_/g, ' ')), make('td', null, String(value))))));
-    };
 }
 
 function sheet(title, ...inside) {
     at('sheet-title').textContent = title;
     at('sheet-text').replaceChildren(...inside);
-    at('measure').hidden = true;
     if (!at('sheet').open) {
         at('sheet').showModal();
+        at('sheet').scrollTop = 0;
     }
 }
 
@@ -654,7 +647,7 @@ const keys = {
     'r': ['restart', () => at('restart').click()],
     's': ['switch the scheme', () => seek(false)],
     'f': ['fork: a copy continues with another scheme', () => seek(true)],
-    'i': ['formula, reference, certificate', () => explain(view.lanes[view.selected].scheme)],
+    'i': ['formula and reference', () => explain(view.lanes[view.selected].scheme)],
     'c': ['add a lane', () => at('add').click()],
     'x': ['remove the chosen lane', () => order('remove', view.selected)],
     'o': ['lanes in one panel, or side by side', () => at('overlay').click()],
@@ -699,8 +692,9 @@ document.addEventListener('keydown', event => {
     keys[event.key][1]();
 });
 
+const names = {' ': 'space', PageUp: 'PgUp', PageDown: 'PgDn', ArrowUp: '↑', ArrowDown: '↓', ArrowLeft: '←', ArrowRight: '→', Backspace: '⌫'};
 at('help').onclick = () => sheet('Keys', make('table', null, ...Object.entries(keys).filter(([, [words]]) => words)
-    .map(([key, [words]]) => make('tr', null, make('th', {scope: 'row'}, make('kbd', null, key === ' ' ? 'space' : key)), make('td', null, words))),
+    .map(([key, [words]]) => make('tr', null, make('th', {scope: 'row'}, make('kbd', null, names[key] || key)), make('td', null, words))),
 make('tr', null, make('th', {scope: 'row'}, make('kbd', null, '1 … 6')), make('td', null, 'choose a lane'))),
 make('p', {className: 'soft'}, `geomint ${lesson.version}. The page holds the whole program: nothing is sent anywhere, and it works without a network.`));
 at('close').onclick = () => at('sheet').close();

@@ -726,18 +726,16 @@ GEOMINT_WEB=$PWD/nowhere refused 3 'could not be read: No such file or directory
 export GEOMINT_WEB="$PWD/template"
 mkdir -p systems/deep
 printf 'geomint: 1\ntitle: A </script><b> & "spring"\ncoordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nstart: q = 1, p = 0\n' >systems/deep/own.system
-"$geomint" list crouzeix3 --source >systems/own.scheme
-status 0 web systems/deep/own.system scheme=rk4,systems/own.scheme dt=0.1 -o page.html
+status 0 web systems/deep/own.system scheme=rk4,verlet dt=0.1 -o page.html
 grep -qx 'geomint: wrote page.html' err || fail "what web prints: $(cat err)"
 python3 - <<'END' || fail 'the view of a page'
 import json
 page = open("page.html").read()
 assert page.startswith("<p>{") and page.endswith("\n</p>\n") and page.count("<") == 2, page
 view = json.loads(page[3:-5])
-assert view["words"] == ["own.system", "scheme=rk4,own.scheme", "dt=0.1"], view["words"]
+assert view["words"] == ["own.system", "scheme=rk4,verlet", "dt=0.1"], view["words"]
 assert view["title"] == 'A </script><b> & "spring"', view["title"]
-assert view["files"] == {name: open(path).read() for name, path in
-                         [("own.system", "systems/deep/own.system"), ("own.scheme", "systems/own.scheme")]}, view["files"]
+assert view["files"] == {"own.system": open("systems/deep/own.system").read()}, view["files"]
 END
 status 0 web --tour area --title 'Area for 7b' -o tour.html
 python3 - <<'END' || fail 'the steps of a tour in a page'
@@ -763,8 +761,12 @@ refused 1 'cavity is a room; a browser has no library' web cavity -o none.html
 refused 1 'room is a room; a browser has no library' web --tour room -o none.html
 refused 1 'web takes a scene or --tour' web disc --tour area -o none.html
 refused 3 'none/page.html could not be written: No such file' web disc -o none/page.html
-mkdir other && cp systems/own.scheme other/own.scheme && echo '# another' >>other/own.scheme
-refused 1 'two different files are called own.scheme' web disc scheme=systems/own.scheme,other/own.scheme -o none.html
+"$geomint" list crouzeix3 --source >own.scheme
+refused 1 'own.scheme is a user-defined scheme; a browser has no' web disc scheme=rk4,./own.scheme -o none.html
+refused 1 'is a user-defined scheme' web disc 'scheme=composition(verlet; 1/2, 1/2)' -o none.html
+mkdir other && sed 's/H: /H: 2*/' systems/deep/own.system >other/own.system
+printf 'title: T\nabout: A\nstep: A\nsay: A.\nshow: systems/deep/own.system\nuntil: 1\nstep: B\nsay: B.\nshow: other/own.system\nuntil: 1\n' >two.tour
+refused 1 'two different files are called own.system' web --tour ./two.tour -o none.html
 [ ! -e none.html ] || fail 'a page was written that is refused'
 
 [ $failures = 0 ] && echo 'all as it should be'

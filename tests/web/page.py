@@ -245,6 +245,9 @@ async def other_views(port):
     await page.shot("passed")
     check("an exercise that is passed", (await page.value("at('verdict').textContent")).startswith("Passed"),
           await page.value("at('tour-text').textContent"))
+    await page.value("void order('switch', 0, 'composition(verlet; 1/2, 1/2)')")
+    await page.until("!at('crash').hidden")
+    check("a user-defined scheme is refused", "numbers of many digits" in await page.value("at('crash-text').textContent"))
     lesson("none/none.html", "disc", fails=True)
     lesson("none.html", "system", "H=p^2/2 + (", fails=True)
     check("refused before it is written", not os.path.exists(folder + "/none.html"))
