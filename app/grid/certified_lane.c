@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app/base/arguments.h"
 #include "app/words/request.h"
@@ -159,11 +160,17 @@ static const struct gm_request *ask(struct gm_arena *arena, const char *system,
     gm_arguments_print(words, "scheme=%s", typed->words[0]);
     gm_arguments_append(words, typed->words + 1, typed->count - 1);
     /* a mesh has the number of nodes on which all claims are measured, by default */
-    if (scheme && scheme->family->kind == &gm_kind_mesh && !gm_arguments_have(words, "points=")) {
+    const bool few = scheme && scheme->family->kind == &gm_kind_mesh && !gm_arguments_have(words, "points=");
+    if (few) {
         gm_arguments_add(words, "points=3");
     }
     gm_arena_need(arena, !words->failed);
-    if (!gm_request_parse(request, words->count, words->words, 1, message)) {
+    bool parsed = gm_request_parse(request, words->count, words->words, 1, message);
+    /* places that are listed have their number */
+    if (!parsed && few && strcmp(request->refused, "points") == 0) {
+        parsed = gm_request_parse(request, words->count - 1, words->words, 1, message);
+    }
+    if (!parsed) {
         *status = gm_request_refusal(request);
         gm_arena_refuse(arena, "%s", message);
     }

@@ -430,6 +430,8 @@ def nodes_alone():
                           text=True, check=False)
     check(made.returncode == 0 and "against a run of free-gauss4 with a step of 0.00625" in made.stdout and
           "control-" not in made.stdout, f"the reference of nodes alone is a free- scheme: {made.stdout}{made.stderr}")
+    made = subprocess.run([program, "certify", "free-gauss4", "--on", "peakons"], capture_output=True, text=True, check=False)
+    check(made.returncode == 0 and "order 4, measured 4.0" in made.stdout, f"listed nodes are certified: {made.stderr}")
     for between in ("1/0", "v0", "s*v0", "v0 + s*(v1 - v0) + 0*log(s - 1)"):
         refused("it is finite, v0 at s = 0 and v1 at s = 1", "peakons", f"between={between}")
     check(run("peakons", "half_length=800", "steps=1").returncode == 0, "long cells do not overflow")
