@@ -85,7 +85,7 @@ struct gm_event_step {
     /* Writes the state after a part of a step, of length dt from `from` at t. `counted` if it is one that the
        run takes. Returns its time, NAN if it fails. */
     double (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
-    /* Fills the scheme's memory of a changed state, where it is zero. Returns false if that fails. */
+    /* Fills the scheme's memory of a changed state, which is zero. Returns false if that fails. */
     bool (*restart)(void *data, double t, double *state);
     /* Returns the motion with these modes, which is valid until the next call but one; NULL when out of memory. */
     const struct gm_problem *(*motion)(void *data, const double *modes);

@@ -39,8 +39,8 @@ struct gm_periodic {
 };
 
 /* Returns the time of the first return to the plane through y normal to f(y), in the direction of f and within half of
-   the largest distance from y so far, with steps of dt. NAN if `steps` steps have none: the start is then where they have
-   led, which may be next to an orbit that attracts. */
+   the largest distance from y so far, with steps of dt. NAN if `steps` steps have none: the start is then the state after
+   them, which may be next to an orbit that attracts. */
 double gm_first_return(struct gm_periodic *orbit, double dt, int64_t steps);
 
 /* Finds the orbit; returns false when out of memory. */
