@@ -637,11 +637,11 @@ static void add_room(struct gm_reading *reading)
     static const struct {
         const char *name;
         struct gm_form_declared form;
-    } rows[GM_ROOM_FORMS] = {[GM_ROOM_PSI] = {"psi", {0, false}},
-                             [GM_ROOM_W] = {"w", {2, true}},
-                             [GM_ROOM_U] = {"u", {1, true}},
-                             [GM_ROOM_THETA] = {"scalar", {0, false}},
-                             [GM_ROOM_WARMTH] = {"temperature", {0, false}}};
+    } rows[GM_ROOM_FORMS] = {[GM_ROOM_PSI] = {"psi", {.degree = 0}},
+                             [GM_ROOM_W] = {"w", {.degree = 2, .dual = true}},
+                             [GM_ROOM_U] = {"u", {.degree = 1, .dual = true}},
+                             [GM_ROOM_THETA] = {"scalar", {.degree = 0}},
+                             [GM_ROOM_WARMTH] = {"temperature", {.degree = 0}}};
     struct gm_user_system *system = reading->system;
     system->forms = gm_arena_take(system->arena, GM_ROOM_FORMS, sizeof *system->forms);
     for (size_t i = 0; i < GM_ROOM_FORMS; i++) {
