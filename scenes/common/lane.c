@@ -110,10 +110,11 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
     const struct gm_observable *row = gm_scene_observable_at(lane->scene, observable);
     struct gm_view view = gm_lane_view(lane);
     view.observable = row;
-    return row->why                                           ? row->why(&view)
-           : row->missing                                     ? row->missing
-           : row->kept || !gm_lane_measures(lane, observable) ? NULL
-                                                              : "it has no finite value in this state";
+    return row->why       ? row->why(&view)
+           : row->missing ? row->missing
+           : row->kept || !gm_lane_measures(lane, observable) || isfinite(gm_lane_observe(lane, observable))
+               ? NULL
+               : "it has no finite value in this state";
 }
 
 void gm_lane_judge(struct gm_lane *lane, size_t observable, double value)
