@@ -16,7 +16,7 @@
 #endif
 
 /* Before a loop: no array that it writes overlaps another one, so that it can be vectorised. clang takes such words for
-   an order, and warns where it does not vectorise. */
+   an order, and warns of loops that it leaves as they are. */
 #ifdef __clang__
 #define GM_NO_OVERLAP
 #else
