@@ -435,6 +435,36 @@ check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of other f
 found = written(MADE.replace("left q = v", "left q = u"))
 check(found["u_error"] < 1e-13 and found["q_error"] < 1e-13, f"values of values that are held: {found}")
 
+# the flow of rooms as text: a lid drives the box of the room `cavity`, to the same steady state on the same mesh
+LID = """geomint: 1
+mesh: rectangle 1 1 12
+field: w = dual 2-form
+unknown: psi = 0-form
+let: u = -star(d(psi))
+equation: psi; -laplace(psi) = star(w)
+rate: w = -lie(u, w) + laplace(w)/100
+boundary: all psi = 0
+boundary: top u = -1
+boundary: all w = d(u)
+start: w = 0
+observe: least = min(psi)
+observe: energy = inner(u, u)/2
+schemes: rk4
+dt: 0.02
+until: 40
+"""
+mine, its = written(LID), observed("cavity", "columns=12", "rows=16", "reynolds=100")
+check(abs(mine["least"] / its["psi_min"] - 1) < 1e-8 and abs(mine["energy"] / its["kinetic_energy"] - 1) < 1e-8,
+      f"a lid as forms: {mine}, as a room: {its}")
+WHIRLS = LID[:LID.index("boundary")].replace("rectangle 1 1 12", "flat-torus 2*pi 2*pi n\nparameter: n = 16; 4 .. 99").replace("/100", "/10") + """start: w = 2*sin(x)*sin(y)
+exact: w = 2*sin(x)*sin(y)*exp(-t/5)
+schemes: midpoint
+dt: 0.02
+until: 1
+"""
+coarse, fine = written(WHIRLS)["w_error"], written(WHIRLS, "n=32")["w_error"]
+check(fine < 1e-3 and 1.9 < math.log2(coarse / fine) < 2.1, f"Taylor and Green's whirls: {coarse} {fine}")
+
 # a boundary that a form gives to a let: a disc loses h u through its rim. Steady heating has a closed form; the slowest
 # mode is J0(k r) exp(-k^2 t) with k J1(k) = h J0(k). Two lets have the same rim.
 ROBIN = """geomint: 1
