@@ -64,6 +64,11 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     if (!known || name->indexed || name->initial) {
         return GM_UNKNOWN;
     }
+    const struct gm_parameter *row = row_of(names->scene, number);
+    if (row && row->type != GM_REAL && row->type != GM_INTEGER) {
+        gm_refuse(sentence, "%s is a word, not a number", known);
+        return GM_REFUSED;
+    }
     while (at < expectation->count && expectation->names[at] != number) {
         at++;
     }
@@ -107,9 +112,10 @@ static double certified_value(const struct gm_lane *lane, size_t name)
         double value = scheme->word != NULL;
         if (name != TYPED) {
             const struct gm_certificate certificate = gm_certify(scheme);
-            value = name == ORDER       ? certificate.order
-                    : name == CERTIFIED ? certificate.holds
-                                        : certificate.claims[name - FIXED].holds;
+            value = !certificate.order_problem[0] ? NAN /* nothing was measured */
+                    : name == ORDER               ? certificate.order
+                    : name == CERTIFIED           ? certificate.holds
+                                                  : certificate.claims[name - FIXED].holds;
         }
         least = value < least || isnan(value) ? value : least;
     }
@@ -146,8 +152,11 @@ static bool meets(const struct gm_expectation *expectation, const struct gm_lane
     if (nodes) {
         gm_formula_evaluate(&expectation->graph, count, values, nodes);
     }
-    const bool met =
-        nodes && finite && nodes[expectation->node] == 1; /* a comparison with NaN decides nothing */
+    for (gm_node_id i = 0; nodes && i < count; i++) {
+        finite =
+            finite && !isnan(nodes[i]); /* a comparison with NaN decides nothing, nor does its opposite */
+    }
+    const bool met = nodes && finite && nodes[expectation->node] == 1;
     free(nodes);
     return met;
 }

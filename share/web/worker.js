@@ -254,7 +254,7 @@ onmessage = async ({data: {id, name, value}}) => {
         plan();
     } catch (error) {
         // the program ends itself only if a library is missing: that of numbers of many digits
-        const sentence = 'a scheme of your own needs numbers of many digits, which a browser does not have';
+        const sentence = 'certificates and schemes of your own need numbers of many digits, which a browser does not have';
         postMessage({crash: error.name === 'ExitStatus' ? sentence : String(error.message || error)});
     }
 };

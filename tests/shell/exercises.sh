@@ -133,6 +133,7 @@ grep -qF 'did you mean energy_error' err || fail "no proposal: $(cat err)"
 wrong 'a condition compares two values' 'expect: energy_error'
 wrong 'equality' 'expect: steps = 5'
 wrong 'hint: is for an exercise' 'hint: none'
+wrong 'show is a word, not a number' 'expect: show > 1'
 printf 'title: x\nstep: a\nsay: b\nshow: kepler\nexpect: t > 0\n' >wrong.tour
 refused 3 'needs show: and ask:' tour ./wrong.tour --list
 
@@ -141,5 +142,14 @@ sed 's/evaluations < 65/evaluations < 60/' "$tours/exercises.tour" >stricter.tou
 answer 1 62 'disc scheme=verlet dt=1'
 "$geomint" grade x.answer ./stricter.tour >out
 [ $? = 4 ] && grep -q 'evaluations < 60' out || fail "another tour: $(cat out)"
+
+# what was not measured, and what is not a number, meets no condition, nor does its opposite
+printf 'coordinates: q\nH: p_q^2/2 + q^2/2 - q^4/9\npart: A = p_q^2/2 + q^2/2\npart: B = -q^4/9\nstart: q = 1, p_q = 0\n' >parts.system
+for condition in 'certified > 0' 'order > 1' 'symplectic < 1' 'not 0/0 < 1' 'not sqrt(-1 - t) > 0'; do
+    printf "$head"'expect: %s\n' "$condition" | sed 's/kepler/.\/parts.system/' >own.tour
+    printf 'tour: own\nstep: 1\nsteps: 10\nrun: ./parts.system scheme=strang(A,B) dt=0.1\n' >x.answer
+    "$geomint" grade x.answer ./own.tour >out 2>err
+    [ $? = 4 ] || fail "$condition: $(cat out err)"
+done
 [ "$failures" = 0 ] && echo "exercises: all passed"
 exit $((failures > 0))

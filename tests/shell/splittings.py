@@ -395,6 +395,21 @@ def certificates_are_not_passed_by_nothing():
         check(code == status and found in text, f"{words} ends with {code}: {text}")
 
 
+def false_orders_are_refuted():
+    with tempfile.NamedTemporaryFile("w", suffix=".system") as file:
+        file.write("coordinates: q\nH: p_q^2/2 + q^2/2 - q^4/9\npart: A = p_q^2/2 + q^2/2\npart: B = -q^4/9\n"
+                   "start: q = 1, p_q = 0\ndt: 0.1\n")
+        file.flush()
+        for scheme in ("aba1064(A, B; order: 10)", "aba1064(B, A; order: 8)", "pefrl4(A, B; order: 6)",
+                       "suzuki4(A, B; order: 6)", "mclachlan4(A, B; order: 5)", "yoshida6(A, B; order: 8)"):
+            code, text = certify(scheme, "--on", file.name)
+            check(code == 4 and "BROKEN" in text, f"{scheme} ends with {code}: {text}")
+        for scheme, order in (("aba1064(B, A)", 4), ("aba1064(A, B)", 4), ("strang(A, B)", 2)):
+            code, text = certify(scheme, "--on", file.name)
+            found = re.search(r"order \d+, measured ([\d.]+)", text)
+            check(code == 0 and found and abs(float(found[1]) - order) < 0.1, f"{scheme} ends with {code}: {text}")
+
+
 def best_adds_schemes_of_the_order_or_says_so():
     for scheme, first, others, none in (
             ("degenerate-midpoint2", "lotka-volterra-L", (), True), ("suzuki-umeno8", "kepler", (), False),
@@ -500,6 +515,7 @@ def main():
     parts_are_typed()
     names_mean_parts_of_the_system()
     certificates_are_not_passed_by_nothing()
+    false_orders_are_refuted()
     best_adds_schemes_of_the_order_or_says_so()
     work_of_parts_is_counted()
     adjoints_and_compositions_have_the_claims_of_their_bases()

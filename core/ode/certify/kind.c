@@ -538,6 +538,13 @@ static double *start_before_event(const struct gm_subject *subject, double *pass
     return there ? state : NULL;
 }
 
+/* True without an order, or with a low one that other steps do not confirm: their errors may be those of the reference. */
+static bool doubts_order(const struct gm_certificate *certificate, const struct gm_scheme *scheme)
+{
+    return isnan(certificate->order) ||
+           (!certificate->ladder.settled && certificate->order <= 0.95 * scheme->order);
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -566,10 +573,12 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     const struct gm_subject between = gm_subject_between_events(&subject);
     follow_all(certificate, &between);
     /* an order needs short steps, and the dt of a map may be long */
-    for (int shorter = 0; isnan(certificate->order) && shorter < 4; shorter++) {
+    for (int shorter = 0; doubts_order(certificate, scheme) && shorter < 4; shorter++) {
         subject.unit /= 8;
         measure_order(certificate, &subject);
     }
+    const bool unclear = !isnan(certificate->order) && doubts_order(certificate, scheme);
+    certificate->order = unclear ? NAN : certificate->order;
     const bool rough = gm_ode_of(system->problem)->rough;
     if (rough && isnan(subject.passed)) {
         certificate->order = NAN;
@@ -579,6 +588,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
                     !system->problem->events->changes
                 ? "the system is not smooth, and 2000 steps do not pass each break twice"
                 : "the system is not smooth, so that no order can be measured";
+    } else if (unclear) {
+        certificate->order_reason = "the errors of shorter steps follow no power of dt";
     } else if (isnan(certificate->order)) {
         certificate->order_reason = "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }

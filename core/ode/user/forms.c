@@ -336,6 +336,20 @@ static void close_idle(void *data)
     pthread_mutex_destroy(&idle->turn);
 }
 
+/* Refuses values on the boundary of a let that is not a dual 1-form: nothing would take them. */
+static void refuse_boundary(const struct compiling *compiling, gm_node_id let, struct gm_form_type type)
+{
+    const struct gm_user_system *system = compiling->model->system;
+    for (size_t i = 0; i < system->item_count && !(type.degree == 1 && type.dual); i++) {
+        const struct gm_system_item *item = &system->items[i];
+        gm_arena_need(system->arena, item->word != GM_WORD_BOUNDARY || item->count < 2 ||
+                                         item->nodes[1] != let ||
+                                         gm_fail(compiling->fault, item->place,
+                                                 "a boundary of a let is along a dual 1-form, and this is %s",
+                                                 gm_form_type_text(type)));
+    }
+}
+
 static void compile_all(struct gm_arena *arena, void *data)
 {
     const struct compiling *compiling = data;
@@ -368,6 +382,9 @@ static void compile_all(struct gm_arena *arena, void *data)
     for (size_t i = 0; i < model->observed_count; i++) {
         const struct gm_system_item *item = &system->items[model->observed_item[i]];
         const struct gm_form_type type = model->observed.steps[model->observed.roots[i]].type;
+        if (item->word == GM_WORD_LET) {
+            refuse_boundary(compiling, item->nodes[0], type);
+        }
         if (item->word == GM_WORD_LET && type.degree >= 0) {
             name_form(compiling, (struct gm_form_named){item->name, type, false, i}, item->place);
         }

@@ -742,6 +742,9 @@ size_t gm_parts_column(const struct gm_scheme *scheme, const struct gm_problem *
     const struct gm_scheme *named = scheme->by_names ? scheme->by_names : scheme;
     const struct gm_substeps *substeps = gm_scheme_is_composition(named) ? named->coefficients : NULL;
     const struct gm_parts_row *row = named->family == &gm_family_parts ? named->coefficients : NULL;
+    if (problem->kind != &gm_kind_ode) { /* it has no parts at all */
+        return 0;
+    }
     size_t column = named->base ? gm_parts_column(named->base, problem) : 0;
     for (int i = 0; substeps && i < substeps->count && column == 0; i++) {
         column = gm_parts_column(substeps->at[i].scheme, problem);
