@@ -188,11 +188,13 @@ FILE *gm_stream_begin(struct gm_text_stream *writing)
 
 char *gm_stream_end(struct gm_text_stream *writing)
 {
-    if (writing->stream && fclose(writing->stream) == 0) {
-        return writing->text;
+    const bool good = writing->stream && fclose(writing->stream) == 0;
+    char *text = writing->text;
+    *writing = (struct gm_text_stream){0};
+    if (!good) {
+        free(text);
     }
-    free(writing->text);
-    return NULL;
+    return good ? text : NULL;
 }
 
 void gm_append(char *text, size_t size, const char *format, ...)

@@ -107,13 +107,19 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
     }
 }
 
+static void drop_stream(void *writing)
+{
+    free(gm_stream_end(writing));
+}
+
 /* The view as JSON. A < is written as its number, since </script> would end the element of the page. */
 static const char *print_view(const struct lesson *lesson)
 {
-    struct gm_text_stream writing;
     struct gm_arena *arena = lesson->options->arena;
-    FILE *stream = gm_stream_begin(&writing);
+    struct gm_text_stream *writing = gm_arena_take(arena, 1, sizeof *writing);
+    FILE *stream = gm_stream_begin(writing);
     gm_arena_need(arena, stream);
+    gm_arena_keep(arena, writing, drop_stream); /* words may be refused while it is open */
     struct gm_row view = gm_row_begin(stream);
     gm_row_put(&view, "version %s, title %s", GM_VERSION, lesson->title);
     put_words(lesson, &view, "words", lesson->words);
@@ -125,13 +131,13 @@ static const char *print_view(const struct lesson *lesson)
         gm_row_text(&files, lesson->files->words[i], lesson->files->words[i + 1]);
     }
     gm_row_close(&view, "");
-    const char *text = gm_arena_keep(arena, gm_stream_end(&writing), free);
-    stream = gm_stream_begin(&writing);
+    const char *text = gm_arena_keep(arena, gm_stream_end(writing), free);
+    stream = gm_stream_begin(writing);
     gm_arena_need(arena, text && stream);
     for (; *text; text++) {
         fputs(*text == '<' ? "\\u003c" : (char[]){*text, '\0'}, stream);
     }
-    text = gm_arena_keep(arena, gm_stream_end(&writing), free);
+    text = gm_arena_keep(arena, gm_stream_end(writing), free);
     gm_arena_need(arena, text);
     return text;
 }
