@@ -190,7 +190,8 @@ char *gm_stream_end(struct gm_text_stream *writing)
 {
     const bool good = writing->stream && fclose(writing->stream) == 0;
     char *text = writing->text;
-    *writing = (struct gm_text_stream){0};
+    writing->stream = NULL;
+    writing->text = NULL;
     if (!good) {
         free(text);
     }

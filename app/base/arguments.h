@@ -47,7 +47,7 @@ void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t si
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 
 /* A text that grows as its stream is written. gm_stream_begin returns the stream, NULL when out of memory;
-   gm_stream_end closes it and returns the text, malloc'ed, or NULL without a stream, also after an end, or memory. */
+   gm_stream_end closes it and returns the text, malloc'ed, or NULL without a stream, also after an end, or memory; the size stays. */
 struct gm_text_stream {
     FILE *stream;
     char *text;
