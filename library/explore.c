@@ -288,70 +288,78 @@ static void put_parameters(struct gm_row *view, const struct gm_shot *shot)
     }
 }
 
-const char *geomint_view(geomint *handle)
+/* Writes a text of a session; `put` returns false when out of memory. */
+static const char *tell(geomint *handle, bool (*put)(FILE *stream, geomint *handle))
 {
     struct gm_call call;
     struct gm_text_stream writing;
     const char *text = NULL;
-    const struct gm_session *session = begin(&call, handle, selected);
-    FILE *stream = session ? gm_stream_begin(&writing) : NULL;
-    if (stream) {
-        struct gm_shot *shot = handle->shot;
-        gm_shot_take(shot, session, false);
-        struct gm_row row = gm_row_begin(stream);
-        gm_row_put(&row, "scene %s, title %s, unit %s, t %.17g, passed %.17g, reach %.17g, ahead %.17g",
-                   shot->scene->name, shot->scene->title, shot->scene->time ? shot->scene->time : "",
-                   gm_session_time(session), shot->gone, shot->reach, shot->ahead);
-        gm_row_put(&row, "backwards %d, turned %d, overlaid %d, in_space %d, selected %i", shot->backwards,
-                   shot->turned, shot->overlaid, shot->in_space, (int)shot->selected);
-        put_lanes(&row, session, shot);
-        put_observables(&row, shot);
-        put_parameters(&row, shot);
-        gm_row_close(&row, "");
+    FILE *stream = begin(&call, handle, selected) ? gm_stream_begin(&writing) : NULL;
+    if (stream && put(stream, handle)) {
         text = gm_handle_written(handle, &writing);
+    } else if (stream) {
+        free(gm_stream_end(&writing));
     }
     gm_call_end(&call);
     return text;
+}
+
+static bool put_view(FILE *stream, geomint *handle)
+{
+    const struct gm_session *session = handle->session;
+    struct gm_shot *shot = handle->shot;
+    gm_shot_take(shot, session, false);
+    struct gm_row row = gm_row_begin(stream);
+    gm_row_put(&row, "scene %s, title %s, unit %s, t %.17g, passed %.17g, reach %.17g, ahead %.17g",
+               shot->scene->name, shot->scene->title, shot->scene->time ? shot->scene->time : "",
+               gm_session_time(session), shot->gone, shot->reach, shot->ahead);
+    gm_row_put(&row, "backwards %d, turned %d, overlaid %d, in_space %d, selected %i", shot->backwards,
+               shot->turned, shot->overlaid, shot->in_space, (int)shot->selected);
+    put_lanes(&row, session, shot);
+    put_observables(&row, shot);
+    put_parameters(&row, shot);
+    gm_row_close(&row, "");
+    return true;
+}
+
+const char *geomint_view(geomint *handle)
+{
+    return tell(handle, put_view);
+}
+
+static bool put_schemes(FILE *stream, geomint *handle)
+{
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
+    const size_t count = gm_session_fits(handle->session, schemes);
+    for (size_t i = 0; i < count; i++) {
+        fputc(i > 0 ? ',' : '[', stream);
+        gm_scheme_put(stream, schemes[i]);
+    }
+    fputc(']', stream);
+    return true;
 }
 
 const char *geomint_schemes(geomint *handle)
 {
-    struct gm_call call;
-    struct gm_text_stream writing;
-    const char *text = NULL;
-    const struct gm_session *session = begin(&call, handle, selected);
-    FILE *stream = session ? gm_stream_begin(&writing) : NULL;
-    if (stream) {
-        const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
-        const size_t count = gm_session_fits(session, schemes);
-        for (size_t i = 0; i < count; i++) {
-            fputc(i > 0 ? ',' : '[', stream);
-            gm_scheme_put(stream, schemes[i]);
-        }
-        fputc(']', stream);
-        text = gm_handle_written(handle, &writing);
+    return tell(handle, put_schemes);
+}
+
+static bool put_commands(FILE *stream, geomint *handle)
+{
+    char *picture = gm_session_picture_command(handle->session, handle->theme);
+    char *explorer = picture ? gm_session_explorer_command(handle->session) : NULL;
+    if (explorer) {
+        struct gm_row row = gm_row_begin(stream);
+        gm_row_put(&row, "picture %s, explorer %s", picture, explorer);
+        gm_row_close(&row, "");
     }
-    gm_call_end(&call);
-    return text;
+    const bool made = explorer;
+    free(picture);
+    free(explorer);
+    return made;
 }
 
 const char *geomint_commands(geomint *handle)
 {
-    struct gm_call call;
-    struct gm_text_stream writing;
-    const char *text = NULL;
-    const struct gm_session *session = begin(&call, handle, selected);
-    char *picture = session ? gm_session_picture_command(session, handle->theme) : NULL;
-    char *explorer = picture ? gm_session_explorer_command(session) : NULL;
-    FILE *stream = explorer ? gm_stream_begin(&writing) : NULL;
-    if (stream) {
-        struct gm_row row = gm_row_begin(stream);
-        gm_row_put(&row, "picture %s, explorer %s", picture, explorer);
-        gm_row_close(&row, "");
-        text = gm_handle_written(handle, &writing);
-    }
-    free(picture);
-    free(explorer);
-    gm_call_end(&call);
-    return text;
+    return tell(handle, put_commands);
 }

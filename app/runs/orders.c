@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orders of the user to a session, without a clock: changes of lanes, of parameters and schemes, and what undoes
    them. */
-#include <curses.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

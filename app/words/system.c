@@ -279,7 +279,6 @@ static bool open_system(struct making *making)
                                                                   .words = words,
                                                                   .path = inside ? NULL : written->path,
                                                                   .typed = !written->path,
-
                                                                   .elsewhere = making->elsewhere,
                                                                   .until = making->until},
                                        &opening);

@@ -93,15 +93,10 @@ void gm_triangle_normal(const double p[9], double normal[3])
 
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6])
 {
-    for (size_t k = 0; k < 3; k++) {
-        const double *point =
-            complex->point + complex->coordinates * (size_t)complex->triangle[3 * triangle + k];
-        for (size_t c = 0; c < 2; c++) {
-            const double x = point[c];
-            corners[2 * k + c] = k > 0 && complex->period[c] > 0
-                                     ? x - complex->period[c] * round((x - corners[c]) / complex->period[c])
-                                     : x;
-        }
+    double p[9];
+    gm_complex_corners_in_space(complex, triangle, p);
+    for (size_t i = 0; i < 6; i++) {
+        corners[i] = p[i / 2 * 3 + i % 2];
     }
 }
 

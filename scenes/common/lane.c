@@ -110,11 +110,12 @@ const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
     const struct gm_observable *row = gm_scene_observable_at(lane->scene, observable);
     struct gm_view view = gm_lane_view(lane);
     view.observable = row;
-    return row->why       ? row->why(&view)
-           : row->missing ? row->missing
-           : row->kept || !gm_lane_measures(lane, observable) || isfinite(gm_lane_observe(lane, observable))
-               ? NULL
-               : "it has no finite value in this state";
+    if (row->why || row->missing) {
+        return row->why ? row->why(&view) : row->missing;
+    }
+    const bool measured = !row->kept && gm_lane_measures(lane, observable);
+    return measured && !isfinite(gm_lane_observe(lane, observable)) ? "it has no finite value in this state"
+                                                                    : NULL;
 }
 
 void gm_lane_judge(struct gm_lane *lane, size_t observable, double value)

@@ -102,8 +102,8 @@ static bool find_axes(const double *block, size_t n, double axes[2][2])
 }
 
 /* Tyranowski and Desbrun's figure 1 for every node: displacements of one kinetic energy, the same for all nodes, with
-   which half of the ellipses are wider than a 35th of the panel. Halves that would pass a neighbour end there. Along the field a straight
-   node has a segment, whose displacements have no energy. */
+   which half of the ellipses are wider than a 35th of the panel. Halves that would pass a neighbour end there. Along the
+   field a straight node has a segment, whose displacements have no energy. */
 static void draw_inertia(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          const double *nodes)
 {
@@ -276,8 +276,9 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
             first++;
         }
         for (size_t k = i; first == i && k < count; k++) {
-            const double largest = farthest(lanes[k], (size_t)error, 0);
-            if (lanes[k]->scheme == lanes[i]->scheme && lanes[k]->run->status == GM_OK && isfinite(largest)) {
+            const bool counts = lanes[k]->scheme == lanes[i]->scheme && lanes[k]->run->status == GM_OK;
+            const double largest = counts ? farthest(lanes[k], (size_t)error, 0) : NAN;
+            if (isfinite(largest)) {
                 line[2 * made] = of_energy ? fabs(lanes[k]->run->dt) : (double)(lanes[k]->problem.n / 4 + 1);
                 line[2 * made + 1] = largest;
                 gm_range_add(&panel->x.low, &panel->x.high, line[2 * made]);

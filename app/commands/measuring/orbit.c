@@ -22,7 +22,7 @@
 #include "core/schemes.h"
 #include "render/files/temporary.h"
 
-enum { MOST_RETURN = 100000 /* steps until the first return */, MOST_STEPS = 1000000000 };
+enum { MOST_RETURN = 1000000 /* steps until the first return */, MOST_STEPS = 1000000000 };
 
 struct work {
     const struct gm_options *options;
@@ -112,7 +112,8 @@ static void choose_period(struct work *work, struct gm_problem *problem)
     } else {
         gm_command_end_if(options, !orbit->free, GM_EXIT_USAGE,
                           "the equations contain t: period= gives the period of their right side");
-        orbit->period = gm_first_return(orbit, dt, MOST_RETURN);
+        /* a motion that nears an orbit does so in a tenth of them, and returns from there */
+        orbit->period = gm_first_return(orbit, dt, work->held ? MOST_RETURN : MOST_RETURN / 10);
         if (isnan(orbit->period) && !work->held) {
             orbit->period = gm_first_return(orbit, dt, MOST_RETURN);
         }

@@ -72,8 +72,7 @@ struct gm_system_origin {
     /* A wave equation is on a moving mesh; an equation that is recognised by its rates has the state of the schemes for
        it. */
     bool elsewhere;
-    double
-        until; /* the end that was given with the words, which decides whether the motion is stiff; 0: none */
+    double until; /* the end that was typed, up to which the motion is stiff or not; 0: none */
 };
 
 /* The source of an observable's values. */
