@@ -901,6 +901,18 @@ static void read_shown_text(struct gm_reading *reading, const struct gm_read_lin
                         line->place, "a title with values needs a line \"name\" for lists");
 }
 
+/* Refuses a let whose formula another let has as well: both are one node, and would have one boundary. */
+static void refuse_twin(struct gm_reading *reading, const struct gm_entry *let, size_t place)
+{
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        const struct gm_entry *other = &reading->entries[i];
+        gm_system_refuse_if(
+            reading->system, other != let && other->role == GM_ENTRY_NAMED && other->node == let->node, place,
+            "%.*s has the same formula, so it would get this boundary, too: use one let for both",
+            gm_brief_length(other->length), reading->text + other->place);
+    }
+}
+
 /* boundary: PART NAME = formula, of forms */
 static void read_held(struct gm_reading *reading, const struct gm_read_line *line)
 {
@@ -914,6 +926,7 @@ static void read_held(struct gm_reading *reading, const struct gm_read_line *lin
     reading->along = false;
     item->variable = entry->number;
     if (entry->role == GM_ENTRY_NAMED) {
+        refuse_twin(reading, entry, target.name.begin);
         gm_item_add(reading, item, entry->node);
     } else if (entry->role != GM_ENTRY_COMPONENT) {
         gm_system_refuse(reading->system, target.name.begin,

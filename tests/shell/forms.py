@@ -533,6 +533,8 @@ REFUSED += [
      "and this is a dual 2-form"),
     (ROBIN, "rate: u = star(d(q))\nlet: q = star(d(u))", "rate: u = -delta(d(u))\nlet: q = d(u)",
      "8:11: a boundary of a let is along a dual 1-form, and this is a 1-form"),
+    (ROBIN, "let: q = star(d(u))", "let: q = star(d(u))\nlet: p = star(d(u))", "9:15: p has the same formula, so it would get this boundary, too: "
+     "use one let for both"),
     (ROBIN, "let: q = star(d(u))", "let: q = d(u)", "6:16: a boundary of a let is along a dual 1-form"),
     (STEADY, "u = 0-form\nequation: u; -laplace(u) = x*y", "u = 0-form, v = dual 1-form\nlet: a = star(v)\nequation: u; u = 1\n"
      "equation: v; v = star(u)", "6:14: v is a dual 1-form and star(u) a dual 2-form: they cannot be added"),
