@@ -8,11 +8,8 @@
 
 GM_LOOPS_DECLARE(fpu)
 GM_LOOPS_DECLARE(fpu_1)
-GM_LOOPS_DECLARE(fpu_2)
-GM_LOOPS_DECLARE(fpu_4)
-GM_LOOPS_DECLARE(fpu_5)
 
-enum { MOST = GM_FPU_SPRINGS };
+enum { MOST = 3 };
 
 static size_t springs_of(const struct gm_problem *problem)
 {
@@ -95,6 +92,4 @@ static bool formula(const struct gm_problem *problem, struct gm_formula *graph, 
 
 const struct gm_problem gm_problem_fpu = {CHAIN(3, fpu)};
 
-const struct gm_problem gm_problem_fpu_of[GM_FPU_SPRINGS] = {
-    {CHAIN(1, fpu_1)}, {CHAIN(2, fpu_2)}, {CHAIN(3, fpu)}, {CHAIN(4, fpu_4)}, {CHAIN(5, fpu_5)},
-};
+const struct gm_problem gm_problem_fpu_1 = {CHAIN(1, fpu_1)};

@@ -32,10 +32,9 @@ extern const struct gm_problem gm_problem_henon_heiles;
 
 /* The chain of Fermi, Pasta & Ulam with three stiff springs, (x1..3, y1..3, x1'..3', y1'..3') as in Hairer,
    Lubich & Wanner (2006), I.5.1: y are the scaled expansions of the stiff springs; omega is
-   *(const double *)parameters. The same with 1 to GM_FPU_SPRINGS springs: gm_problem_fpu_of[springs - 1]. */
-enum { GM_FPU_SPRINGS = 5 };
+   *(const double *)parameters. gm_problem_fpu_1 has one spring. */
 extern const struct gm_problem gm_problem_fpu;
-extern const struct gm_problem gm_problem_fpu_of[GM_FPU_SPRINGS];
+extern const struct gm_problem gm_problem_fpu_1;
 
 /* A mass on a stiff spring of rest length 1 in gravity 1, (q1, q2, p1, p2); the stiffness is
    *(const double *)parameters. */

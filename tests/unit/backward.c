@@ -581,13 +581,20 @@ static void formulas(void **unused)
 {
     (void)unused;
     static const double one = 0.7, stiff = 30;
-    struct gm_problem problems[16] = {
-        gm_problem_oscillator, gm_problem_pendulum,           gm_problem_henon_heiles,
-        gm_problem_kepler,     gm_problem_kepler_perturbed,   gm_problem_spring_pendulum,
-        gm_problem_product,    gm_problem_vortices,           gm_problem_vortices_reduced,
-        gm_problem_fpu_of[0],  gm_problem_fpu_of[1],          gm_problem_fpu_of[2],
-        gm_problem_fpu_of[4],  gm_problem_oscillator_tangent, gm_problem_pendulum_tangent,
-        gm_problem_fish_eye};
+    struct gm_problem problems[14] = {gm_problem_oscillator,
+                                      gm_problem_pendulum,
+                                      gm_problem_henon_heiles,
+                                      gm_problem_kepler,
+                                      gm_problem_kepler_perturbed,
+                                      gm_problem_spring_pendulum,
+                                      gm_problem_product,
+                                      gm_problem_vortices,
+                                      gm_problem_vortices_reduced,
+                                      gm_problem_fpu_1,
+                                      gm_problem_fpu,
+                                      gm_problem_oscillator_tangent,
+                                      gm_problem_pendulum_tangent,
+                                      gm_problem_fish_eye};
     for (size_t i = 0; i < GM_COUNT(problems); i++) {
         struct gm_problem *problem = &problems[i];
         problem->parameters = i >= 9 || i == 5 ? &stiff : &one;

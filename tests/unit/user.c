@@ -63,7 +63,7 @@ static const struct retyped retyped[] = {
      0.1, false},
     {&gm_problem_product, "coordinates: q\nmomenta: p\nH: (1 + q^2)*(1 + p^2)/2\nstart: q = 0.5, p = 0\n",
      0.05, false},
-    {&gm_problem_fpu_of[0],
+    {&gm_problem_fpu_1,
      "coordinates: q1 q2\nmomenta: p1 p2\nparameter: w = 0.01\n"
      "H: (p1^2 + p2^2)/2 + w^2*q2^2/2 + ((q1 - q2)^4 + (q1 + q2)^4)/4\n"
      "start: q1 = 0.5, q2 = 0.25, p1 = 1, p2 = 0.5\n",
