@@ -130,11 +130,12 @@ static double add_form(double form, const double (*tangent)[TANGENTS], const str
     return form;
 }
 
-/* Returns how far areas differ from `area` times their value before the step. */
+/* Returns how far areas differ from `area` times their value before the step. A time that is the last component is the
+   same for all states of an area. */
 static double areas_defect(const struct derivative *derivative, double area)
 {
     const struct gm_subject *subject = derivative->subject;
-    const size_t all = gm_subject_components(subject);
+    const size_t all = gm_subject_components(subject) - gm_has_time(&subject->problem);
     double defect = 0;
     for (size_t a = 0; a < all; a++) {
         for (size_t b = 0; b < all; b++) {

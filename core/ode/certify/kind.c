@@ -347,13 +347,26 @@ static bool drifts(const struct quarter *first, const struct quarter *last, doub
     return rests || largest(last) > 2 * largest(first);
 }
 
+/* The change of an invariant by one rounding of its components, relative to its value at the start: the larger one of
+   the start and of the end, as components may grow, such as angles that turn. */
+static double rounding_of(const struct gm_subject *subject, const struct gm_kept *kept, const double *end)
+{
+    const double x0 = fabs(kept->value(kept->data, subject->start, NULL)),
+                 x1 = fabs(kept->value(kept->data, end, NULL)), whole = x0 > 0 ? x0 : 1;
+    struct gm_subject last = *subject;
+    last.start = end;
+    for (size_t c = 0; c < last.problem.n; c++) {
+        last.scale = fmax(last.scale, fabs(end[c]));
+    }
+    return fmax(gm_round_off_of(subject, kept) * fmax(1, x0), gm_round_off_of(&last, kept) * fmax(1, x1)) /
+           (100 * whole);
+}
+
 /* Judges claims by an invariant that was followed: a change beyond ten roundings of each step refutes them, and what
    could not be decided without a step is not measured. */
 static void judge(struct gm_certificate *certificate, const struct gm_subject *subject,
-                  const struct gm_followed *row, const struct gm_kept *kept, unsigned claims)
+                  const struct gm_followed *row, const struct gm_kept *kept, unsigned claims, double rounding)
 {
-    const double x0 = fabs(kept->value(kept->data, subject->start, NULL)),
-                 rounding = gm_round_off_of(subject, kept) / 100 * fmax(1, x0) / (x0 > 0 ? x0 : 1);
     const bool refutes =
         !gm_ode_of(&subject->problem)->rough && row->defect > 10 * (double)row->steps * rounding;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -402,15 +415,16 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     row->defect = fmax(-low, high) / scale;
     row->steps = run->steps;
     row->status = run->status;
+    const double rounding = rounding_of(subject, kept, gm_run_state(run));
     if (look < QUARTERS * LOOKS) {
         row->verdict = "not measured";
-    } else if (row->defect <= round_off) {
+    } else if (row->defect <= fmax(round_off, (double)row->steps * rounding)) {
         row->verdict = "conserved";
     } else {
         row->verdict =
             drifts(&quarters[0], &quarters[QUARTERS - 1], low, high, scale) ? "drifts" : "oscillates";
     }
-    judge(certificate, subject, row, kept, claims);
+    judge(certificate, subject, row, kept, claims, rounding);
     gm_run_close(run);
 }
 

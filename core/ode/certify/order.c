@@ -179,6 +179,11 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
             ladder->count = (size_t)++count;
         }
     }
+    /* near round-off, errors that do not fall with the step are those of the reference */
+    while (count > 1 && ladder->error[count - 1] < 100 * plateau &&
+           ladder->error[count - 1] > 0.9 * ladder->error[count - 2]) {
+        ladder->count = (size_t)--count;
+    }
     if (count < FITTED) {
         return NAN;
     }
