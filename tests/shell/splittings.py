@@ -375,6 +375,9 @@ def names_mean_parts_of_the_system():
 HIDDEN = ("system", "rate=x = y*z", "rate=y = -2*x*z", "rate=z = x*y", "x=1", "y=.5", "z=.3", "dt=.1")
 
 
+HARMONIC = ("system", "H=p^2/2 + q^2/2", "q=1", "p=0", "dt=.1")
+
+
 def certificates_are_not_passed_by_nothing():
     for words, status, found in (
             (("relaxed(rk4; L; claims: keeps energy)", "--on", "kepler"), 4, "conserves energy               BROKEN"),
@@ -387,6 +390,16 @@ def certificates_are_not_passed_by_nothing():
              "conserves quadratic invariants not measured"),
             (("composition(rk4; 1; claims: keeps quadratic invariants)", "--on", *HIDDEN), 4,
              "conserves quadratic invariants BROKEN"), # by those that are found
+            (("composition(rk4; 1; claims: keeps quadratic invariants)", "--on", *HARMONIC), 4,
+             "(system); refuted by theory"),
+            (("composition(rk4, avf2; 1/2, 1/2; claims: keeps quadratic invariants)", "--on", *HARMONIC), 4,
+             "conserves quadratic invariants BROKEN"), # by 4000 steps
+            (("composition(gauss4, avf2; 1/2, 1/2; claims: keeps quadratic invariants)", "--on", *HARMONIC), 0,
+             "conserves quadratic invariants holds"),
+            (("composition(gauss4; 1; claims: symmetric keeps quadratic invariants keeps bilinear invariants reversible)",), 0,
+             "conserves quadratic invariants holds"),
+            (("composition(suzuki-umeno8; 1; claims: keeps quadratic invariants)",), 4, "(kepler); refuted by theory"),
+            (("composition(gauss8; 1; claims: keeps energy)",), 4, "refuted by theory"),
             (("midpoint", "--on", *HIDDEN), 0, "conserves quadratic invariants holds"),
             (("composition(gauss4; 1; claims: keeps energy)", "--on", "henon-heiles"), 4, "conserves energy               BROKEN"),
             (("strang(kepler, interaction)",), 0, "order 2, measured 2.000 (kepler-perturbed)"),
