@@ -280,7 +280,8 @@ struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme)
 static unsigned refuted_by(const struct gm_theory *theory, bool written)
 {
     const unsigned bilinear = GM_KEEPS_BILINEAR | GM_KEEPS_MOMENTUM_MAPS;
-    return (written ? GM_KEEPS_ENERGY : 0) | (theory->symplectic ? 0 : GM_SYMPLECTIC | GM_KEEPS_QUADRATIC | bilinear) |
+    return (written ? GM_KEEPS_ENERGY : 0) |
+           (theory->symplectic ? 0 : GM_SYMPLECTIC | GM_KEEPS_QUADRATIC | bilinear) |
            (theory->plain ? 0 : GM_KEEPS_QUADRATIC) | (theory->symmetric ? 0 : GM_SYMMETRIC | GM_REVERSIBLE);
 }
 
@@ -353,8 +354,8 @@ static void conclude(struct gm_certificate *certificate)
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *result = &certificate->claims[bit];
         const bool open = !result->measured && (result->undecided || result->reason);
-        result->holds = result->measured && result->defect <= result->tolerance &&
-                        !(certificate->refuted >> bit & 1);
+        result->holds =
+            result->measured && result->defect <= result->tolerance && !(certificate->refuted >> bit & 1);
         certificate->holds &= !result->claimed || result->holds || open;
     }
     for (size_t i = 0; i < certificate->held_count; i++) {
