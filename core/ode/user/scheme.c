@@ -1047,8 +1047,9 @@ static struct gm_theory theory_of_bases(const struct making *making, struct gm_s
     return theory;
 }
 
-/* What follows from the list of a splitting by parts; `order`: of the list by theory, or of what is called; 0: not known.
-   A palindrome is symmetric. Parts that take steps of schemes have at most their order and their symmetry. */
+/* Order and structure of a splitting by parts, by its list; `order`: of the list by theory, or of the splitting that is
+   called; 0: not known. A palindrome is symmetric. Parts that take steps of schemes have at most their order and their
+   symmetry. */
 static struct gm_theory theory_of_parts(const struct making *making, const struct gm_parts_row *row,
                                         int order)
 {
