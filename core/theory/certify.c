@@ -272,6 +272,19 @@ struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme)
     return theorising.theory;
 }
 
+/* The claims that these coefficients cannot satisfy on every system. Symplectic methods are those that conserve all q' A p,
+   and all quadratic invariants if p has the coefficients of q; reversible ones are the symmetric ones. No finite number of
+   coefficients conserves every energy: of H = p + V(q) they compute an integral of V' by a quadrature. But a scheme that
+   no user wrote may be made for energies of one form. Hairer, Lubich & Wanner (2006), IV.2, V.1; E. Celledoni et al.,
+   ESAIM: M2AN 43 (2009) 645. */
+static unsigned refuted_by(const struct gm_theory *theory, bool written)
+{
+    const unsigned bilinear = GM_KEEPS_BILINEAR | GM_KEEPS_MOMENTUM_MAPS;
+    return (written ? GM_KEEPS_ENERGY : 0) |
+           (theory->symplectic ? 0 : GM_SYMPLECTIC | GM_KEEPS_QUADRATIC | bilinear) |
+           (theory->plain ? 0 : GM_KEEPS_QUADRATIC) | (theory->symmetric ? 0 : GM_SYMMETRIC | GM_REVERSIBLE);
+}
+
 static void ask_theory(struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -283,8 +296,8 @@ static void ask_theory(struct gm_certificate *certificate)
     }
     const bool proved = scheme->order <= theory.order ||
                         (theory.at_least && (theory.at_most == 0 || scheme->order <= theory.at_most));
-    certificate->theory_holds = proved && (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
-                                (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
+    certificate->refuted = refuted_by(&theory, scheme->word) & scheme->claims;
+    certificate->theory_holds = proved && certificate->refuted == 0;
     /* a measured order above the theoretical one is special to a problem */
     const int least = theory.order > scheme->order ? theory.order : scheme->order;
     certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
@@ -341,7 +354,8 @@ static void conclude(struct gm_certificate *certificate)
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *result = &certificate->claims[bit];
         const bool open = !result->measured && (result->undecided || result->reason);
-        result->holds = result->measured && result->defect <= result->tolerance;
+        result->holds =
+            result->measured && result->defect <= result->tolerance && !(certificate->refuted >> bit & 1);
         certificate->holds &= !result->claimed || result->holds || open;
     }
     for (size_t i = 0; i < certificate->held_count; i++) {

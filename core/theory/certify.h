@@ -78,6 +78,7 @@ struct gm_certificate {
        the conditions of the claimed order and the algebra of the claimed structure hold. */
     struct gm_theory theory;
     bool theory_holds;
+    unsigned refuted; /* claims that the coefficients cannot satisfy, as bits */
     struct gm_sameness same;
     bool holds; /* the order, every claim by both, and `same` hold */
 };

@@ -487,6 +487,19 @@ static int digits_of(const struct gm_coefficients *coefficients)
     return isfinite(fewest) ? (int)fmax(1, round(fewest > most - lost ? most : fewest)) : 0;
 }
 
+static bool is_plain(const struct gm_coefficients *coefficients)
+{
+    const int s = coefficients->stages;
+    bool plain = true;
+    for (int i = 0; i < s * s + s && coefficients->equations != GM_EQUATIONS_PLAIN; i++) {
+        const bool in_a = i < s * s;
+        struct gm_ball *const *table = in_a ? coefficients->a : coefficients->b;
+        const int k = in_a ? i : i - s * s;
+        plain = plain && gm_ball_may_vanish(gm_ball_subtract(table[GM_SIDE_Q][k], table[GM_SIDE_P][k]));
+    }
+    return plain || coefficients->nystrom > 0;
+}
+
 struct gm_theory gm_theory_of(struct gm_arena *arena, const struct gm_coefficients *coefficients)
 {
     const size_t mark = gm_arena_mark(arena);
@@ -496,6 +509,7 @@ struct gm_theory gm_theory_of(struct gm_arena *arena, const struct gm_coefficien
     gm_coefficients_reduce(&reduced);
     theory.symplectic = gm_theory_is_symplectic(arena, &reduced);
     theory.symmetric = gm_theory_is_symmetric(arena, &reduced);
+    theory.plain = is_plain(&reduced);
     theory.digits = digits_of(&reduced);
     find_order(arena, &reduced, &theory);
     if (reduced.equations == GM_EQUATIONS_PLAIN) {

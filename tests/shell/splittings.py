@@ -375,6 +375,9 @@ def names_mean_parts_of_the_system():
 HIDDEN = ("system", "rate=x = y*z", "rate=y = -2*x*z", "rate=z = x*y", "x=1", "y=.5", "z=.3", "dt=.1")
 
 
+HARMONIC = ("system", "H=p^2/2 + q^2/2", "q=1", "p=0", "dt=.1")
+
+
 def certificates_are_not_passed_by_nothing():
     for words, status, found in (
             (("relaxed(rk4; L; claims: keeps energy)", "--on", "kepler"), 4, "conserves energy               BROKEN"),
@@ -387,6 +390,16 @@ def certificates_are_not_passed_by_nothing():
              "conserves quadratic invariants not measured"),
             (("composition(rk4; 1; claims: keeps quadratic invariants)", "--on", *HIDDEN), 4,
              "conserves quadratic invariants BROKEN"), # by those that are found
+            (("composition(rk4; 1; claims: keeps quadratic invariants)", "--on", *HARMONIC), 4,
+             "(system); refuted by theory"),
+            (("composition(rk4, avf2; 1/2, 1/2; claims: keeps quadratic invariants)", "--on", *HARMONIC), 4,
+             "conserves quadratic invariants BROKEN"), # by 4000 steps
+            (("composition(gauss4, avf2; 1/2, 1/2; claims: keeps quadratic invariants)", "--on", *HARMONIC), 0,
+             "conserves quadratic invariants holds"),
+            (("composition(gauss4; 1; claims: symmetric keeps quadratic invariants keeps bilinear invariants reversible)",), 0,
+             "conserves quadratic invariants holds"),
+            (("composition(suzuki-umeno8; 1; claims: keeps quadratic invariants)",), 4, "(kepler); refuted by theory"),
+            (("composition(gauss8; 1; claims: keeps energy)",), 4, "refuted by theory"),
             (("midpoint", "--on", *HIDDEN), 0, "conserves quadratic invariants holds"),
             (("composition(gauss4; 1; claims: keeps energy)", "--on", "henon-heiles"), 4, "conserves energy               BROKEN"),
             (("strang(kepler, interaction)",), 0, "order 2, measured 2.000 (kepler-perturbed)"),
@@ -434,7 +447,13 @@ def work_of_parts_is_counted():
         check(found == count, f"{scheme} has {found} evaluations, not {count}")
 
 
-def adjoints_and_compositions_have_the_claims_of_their_bases():
+def adjoints_and_compositions_have_the_claims_of_their_bases(folder):
+    for name, lines in (("told", "split\nparts: A, B\nsteps: 1/2, 1, 1/2\norder: 7\nclaims: symplectic keeps energy"),
+                        ("untold", "split\nparts: A, B\nsteps: 1/2, 1, 1/2"),
+                        ("drifts", "splitting\ndrifts: 1/2, 1/2\nkicks: 1\norder: 5\n"
+                                   "claims: keeps energy keeps linear invariants")):
+        with open(f"{folder}/{name}.scheme", "w") as file:
+            file.write(f"geomint: 1\ntitle: {name}\nkind: {lines}\n")
     for scheme, claims, order in (
             ("adjoint(boris2)", "=V", 2), ("adjoint(avf2)", "=RHL", 2), ("adjoint(rattle2)", "S=RNKT", 2),
             ("adjoint(degenerate-midpoint2)", "S=", 2), ("composition(avf2; 1/2, 1/2)", "=RHL", 2),
@@ -442,7 +461,17 @@ def adjoints_and_compositions_have_the_claims_of_their_bases():
             ("composition(rattle2; 1/3, 2/3)", "SNKT", 2), ("composition(degenerate-midpoint2; 1/2, 1/2)", "S=", 2),
             ("composition(lie(D by rk4, E), adjoint(lie(D by rk4, E)); 1/2, 1/2)", "=", 2),
             ("composition(lie(D by gauss4, E), adjoint(lie(D by gauss4, E)); 1/2, 1/2)", "S=", 2),
-            ("composition(lie(D by rk4, E), adjoint(lie(D by rk2, E)); 1/2, 1/2)", "", 1)):
+            ("composition(lie(D by rk4, E), adjoint(lie(D by rk2, E)); 1/2, 1/2)", "", 1),
+            # the order of the list, and at most that of the schemes of its parts; of what is symmetric it is even
+            ("strang(D by rk4, E)", "=", 2), ("strang(D, E by explicit-euler)", "=", 2), ("strang(D by rk4, E, F)", "=", 2),
+            ("lie(D by rk4, E)", "", 1), ("split(D by rk4, E; 1/2, 1, 1/2)", "", 2),
+            ("split(D by explicit-euler, E; 1/2, 1, 1/2)", "", 1), ("aba1064(D by rk2, E)", "", 2),
+            ("aba1064(D by gauss4, E)", "S=", 4), ("composition(strang(D, E); .3, .7)", "S", 2),
+            ("composition(strang(D by rk4, E); let: g = 1/(2 - 2^(1/3)); g, 1 - 2*g, g)", "=", 4),
+            # a file's own order and claims, where it is called with parts
+            (f"{folder}/told.scheme(D, E)", "SH", 7), (f"{folder}/told.scheme(kinetic, potential)", "SH", 7),
+            (f"{folder}/told.scheme(D by rk4, E)", "", 4), (f"{folder}/drifts.scheme(D, E)", "H", 5),
+            (f"{folder}/drifts.scheme(kinetic, potential)", "HL", 5), (f"{folder}/untold.scheme(D, E)", "S=", 2)):
         done = subprocess.run([GEOMINT, "list", scheme, "--json"], capture_output=True, text=True)
         row = json.loads(done.stdout)
         found = set(row["claims"])
@@ -454,6 +483,10 @@ def adjoints_and_compositions_have_the_claims_of_their_bases():
         check(code == 0 and "BROKEN" not in text and "symmetric                      holds" in text, f"{scheme}: {text}")
     code, text = certify("composition(explicit-euler, avf2; 1/2, 1/2; claims: keeps energy)")
     check(code == 4 and "conserves energy               BROKEN" in text, f"a wrong claim is not refuted: {text}")
+    code, text = certify(f"{folder}/told.scheme(A, B)", "--on", "system", "H=p^2/2 - cos(q)", "q=1", "p=0", "dt=.1",
+                         "part=A = p^2/2, B = -cos(q)")
+    check(code == 4 and "order 7, measured 2.000 (system)  BROKEN" in text and "conserves energy               BROKEN" in text,
+          f"the claims of a file that is called with parts: {text}")
 
 
 def sentences_help():
@@ -518,7 +551,8 @@ def main():
     false_orders_are_refuted()
     best_adds_schemes_of_the_order_or_says_so()
     work_of_parts_is_counted()
-    adjoints_and_compositions_have_the_claims_of_their_bases()
+    with tempfile.TemporaryDirectory() as folder:
+        adjoints_and_compositions_have_the_claims_of_their_bases(folder)
     sentences_help()
     starts_at_a_singularity_are_refused()
     time_moves_with_the_first_part_without_it()

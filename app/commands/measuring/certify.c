@@ -81,13 +81,14 @@ static void print_certificate(const struct gm_certificate *certificate)
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
         const char *reason = measure->reason;
+        const bool refuted = certificate->refuted >> bit & 1;
         if (!measure->claimed && !measure->measured && !measure->undecided &&
             !(reason && GM_CERTIFIED_ON_SYSTEMS >> bit & 1)) {
             continue;
         }
         const char *verdict = !measure->claimed              ? "not claimed"
                               : measure->holds               ? "holds"
-                              : measure->measured            ? "BROKEN"
+                              : measure->measured || refuted ? "BROKEN"
                               : measure->undecided && reason ? "not decided"
                               : measure->undecided           ? "inconclusive"
                               : reason                       ? "not measured"
@@ -102,7 +103,7 @@ static void print_certificate(const struct gm_certificate *certificate)
         } else if (measure->undecided) {
             printf(" no step, however short, separates it from round-off (%s)", measure->problem);
         }
-        printf("\n");
+        printf("%s\n", refuted ? "; refuted by theory" : "");
     }
     for (size_t i = 0; i < certificate->held_count; i++) {
         const struct gm_held_verdict *held = &certificate->held[i];

@@ -441,8 +441,8 @@ static void follow_all(struct gm_certificate *certificate, const struct gm_subje
     const char *const names[] = {name};
     struct held held = {.number = 0};
     if (energy.value && !(ode->hamiltonian && ode->hamiltonian->partial)) {
-        follow(certificate, subject, name,
-               &(const struct gm_kept){.value = gm_invariant_value, .data = &energy}, GM_KEEPS_ENERGY);
+        const struct gm_kept kept = {.value = gm_invariant_value, .data = &energy};
+        follow(certificate, subject, name, &kept, GM_KEEPS_ENERGY | claims_of(subject, &kept));
     }
     for (size_t i = 0; i < subject->kept_count; i++) {
         if (strcmp(subject->kept[i].name, "energy_error") != 0) {

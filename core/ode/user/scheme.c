@@ -221,6 +221,25 @@ static bool add_piece(struct pieces *pieces, enum gm_piece piece, struct gm_writ
     return true;
 }
 
+/* The side of a piece in theory: the first of two names is that of drifts, and a name of its own that of kicks. NULL:
+   pieces are drifts and kicks. */
+static int side_of(const struct gm_parts_row *parts, enum gm_piece piece)
+{
+    const bool kick = parts ? strcmp(parts->list[piece].name, parts->list[0].name) != 0 : piece == GM_KICK;
+    return kick ? GM_SIDE_P : GM_SIDE_Q;
+}
+
+/* True for parts of two names: what takes steps of a scheme and of its adjoint has one. */
+static bool have_two_names(const struct gm_parts_row *parts)
+{
+    bool two = parts->parts > 1;
+    for (size_t k = 2; k < parts->parts; k++) {
+        two = two && (strcmp(parts->list[k].name, parts->list[0].name) == 0 ||
+                      strcmp(parts->list[k].name, parts->list[1].name) == 0);
+    }
+    return two;
+}
+
 /* Returns the row of drifts and kicks; with `parts`, pieces are these parts by their numbers. */
 static struct own *of_pieces(const struct making *making, const struct pieces *pieces, unsigned needs,
                              const struct gm_parts_row *parts)
@@ -229,22 +248,24 @@ static struct own *of_pieces(const struct making *making, const struct pieces *p
     struct gm_parts_row *row = self->coefficients;
     *row = parts ? *parts : (struct gm_parts_row){.parts = 0};
     struct gm_splitting *splitting = &row->splitting;
-    bool exact = pieces->count <= MOST_STAGES && row->corrector == 0 && (!parts || parts->parts == 2);
+    bool exact = pieces->count <= MOST_STAGES && row->corrector == 0 && (!parts || have_two_names(parts));
     self->row.family = parts ? &gm_family_parts : &gm_family_splitting;
     self->row.needs = (parts ? GM_NEEDS_PARTS : GM_NEEDS_SPLIT) | needs;
     splitting->count = pieces->count;
     for (int i = 0; i < pieces->count; i++) {
         splitting->pieces[i].piece = pieces->at[i].piece;
         splitting->pieces[i].fraction = pieces->at[i].fraction.value;
-        exact = exact && !row->list[pieces->at[i].piece].by;
     }
     if (!exact) {
         return self;
     }
-    /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
-    gm_family_splitting.coefficients_open(making->arena, &self->row, &self->exact);
+    if (parts) { /* by exact flows */
+        gm_coefficients_open(making->arena, &self->exact, GM_EQUATIONS_SEPARABLE, pieces->count);
+    } else { /* the family places the fractions in a and b, and marks the force shared by consecutive steps */
+        gm_family_splitting.coefficients_open(making->arena, &self->row, &self->exact);
+    }
     for (int j = 0; j < pieces->count; j++) {
-        const int side = pieces->at[j].piece == GM_KICK ? GM_SIDE_P : GM_SIDE_Q;
+        const int side = side_of(parts, pieces->at[j].piece);
         self->exact.b[side][j] = pieces->at[j].fraction.ball;
         for (int i = j + 1; i < pieces->count; i++) {
             self->exact.a[side][i * pieces->count + j] = pieces->at[j].fraction.ball;
@@ -668,7 +689,8 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
     struct own *self = scheme->claims & GM_SYMMETRIC      ? same(making, scheme)
                        : gm_scheme_is_composition(scheme) ? adjoint_composition(making, scheme, place)
                                                           : adjoint_single(making, scheme, place);
-    self->row.exact = self->exact.stages > 0 ? &self->exact : NULL;
+    self->row.exact = self->exact.stages > 0 && !parts_of(&self->row) ? &self->exact : NULL;
+    self->row.order = scheme->order;
     return self;
 }
 
@@ -1025,25 +1047,35 @@ static struct gm_theory theory_of_bases(const struct making *making, struct gm_s
     return theory;
 }
 
-/* Claims of a splitting by parts if theory does not apply: the base's, or what follows from its list. A palindrome
-   is symmetric. Parts that take steps of schemes have at most their order and their symmetry. */
+/* Order and structure of a splitting by parts, by its list; `order`: of the list by theory, or of the splitting that is
+   called; 0: not known. A palindrome is symmetric. Parts that take steps of schemes have at most their order and their
+   symmetry. */
 static struct gm_theory theory_of_parts(const struct making *making, const struct gm_parts_row *row,
-                                        const struct named *base)
+                                        int order)
 {
-    const unsigned claims = base->count > 0 ? base->at[0]->claims : 0;
     struct gm_theory theory = {.symplectic = true};
     theory.symmetric = row->parts > 0 ? are_adjoint_parts(making, row, row) : row->of_pieces != NULL;
-    theory.order = base->count > 0 ? base->at[0]->order : 1 + theory.symmetric;
-    bool flows = true;
+    theory.order = order > 0 ? order : 1 + theory.symmetric;
     for (size_t k = 0; k < row->parts; k++) {
         const struct gm_scheme *by = row->list[k].by;
-        flows = flows && !by;
         theory.symplectic = theory.symplectic && (!by || by->claims & GM_SYMPLECTIC);
-        theory.order = by && by->order < theory.order ? by->order : theory.order;
+        const int least = by ? by->order + (theory.symmetric ? by->order % 2 : 0) : theory.order;
+        theory.order = least < theory.order ? least : theory.order;
     }
-    theory.symmetric = theory.symmetric || (flows && claims & GM_SYMMETRIC);
-    theory.order += theory.symmetric ? theory.order % 2 : 0;
     return theory;
+}
+
+/* The claims of a splitting that is called with parts. What drifts and kicks preserve, any parts need not, and a part by
+   a scheme preserves no more than that. */
+static unsigned claims_of_called(const struct gm_scheme *called, const struct gm_parts_row *row)
+{
+    const unsigned of_drifts = GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR | GM_KEEPS_MOMENTUM_MAPS;
+    const bool by_names = parts_of(called) && parts_of(called)->corrector == 0;
+    unsigned claims = called->claims & ~(by_names || !row ? 0 : of_drifts);
+    for (size_t k = 0; row && k < row->parts; k++) {
+        claims &= row->list[k].by ? row->list[k].by->claims : ~0u;
+    }
+    return claims;
 }
 
 /* Fills order and claims that the text does not give from theory; without theory they follow from the
@@ -1078,11 +1110,15 @@ static void finish(const struct making *making, struct own *self, const char *na
     if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
     }
+    const struct gm_scheme *called =
+        written->kind == GM_WRITTEN_CALLED ? first_of(making, GM_SCHEME_WORD_BASE) : NULL;
+    /* its order counts, but one of a quadratic T is another one of any parts */
+    if (called && (theory.order == 0 || !(called->needs & GM_NEEDS_NYSTROM))) {
+        theory.order = called->order;
+    }
     if (parts_of(row)) {
-        const int order = theory.order; /* of any two parts; all else is of T and V */
-        theory = theory_of_parts(making, parts_of(row), &schemes[GM_SCHEME_WORD_BASE]);
-        theory.order = order > 0 ? order : theory.order;
-        row->exact = NULL;
+        theory = theory_of_parts(making, parts_of(row), theory.order);
+        row->exact = NULL; /* theory is of T and V */
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known && theory.order == 0; word++) {
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
@@ -1090,6 +1126,9 @@ static void finish(const struct making *making, struct own *self, const char *na
     row->order = written->order > 0 ? written->order : theory.order > 0 ? theory.order : 1;
     row->claims = (theory.known ? 0 : row->claims) | (theory.symplectic ? GM_SYMPLECTIC : 0) |
                   (theory.symmetric ? GM_SYMMETRIC : 0);
+    if (called) {
+        row->claims = claims_of_called(called, parts_of(row));
+    }
     if (claims->said) {
         read_claims(making, claims, &row->claims);
     }
