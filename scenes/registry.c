@@ -56,7 +56,6 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
 {
     const bool room = file->kind == GM_FILE_ROOM;
     struct gm_user_system system = gm_room_unread(file->text, file->length);
-    char sentence[GM_MESSAGE];
     if (!room && !gm_equations_open(&system, file->text, file->length, NULL, 0, fault)) {
         gm_system_close(&system);
         return NULL;
@@ -66,7 +65,7 @@ static const struct gm_scene *open_system(const struct gm_built_in *file, struct
         !room && gm_user_field_elsewhere(&system, system.texts[GM_WORD_SCHEMES], &others) > 0;
     return gm_system_scene_open(&system,
                                 &(struct gm_system_origin){.name = file->name, .elsewhere = elsewhere},
-                                &(struct gm_system_opening){.fault = fault, .sentence = sentence});
+                                &(struct gm_system_opening){.fault = fault, .sentence = reason});
 }
 
 /* Opens a scene's file. NULL, and a reason, if there is no memory or the file has a fault. */

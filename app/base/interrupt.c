@@ -3,6 +3,7 @@
 #include "app/base/interrupt.h"
 
 #include <stddef.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -75,4 +76,23 @@ void gm_catch_interrupts(void)
 {
     install();
     ends = 0;
+}
+
+static const char *over_limit;
+
+static void end_at_limit(int number)
+{
+    (void)number;
+    (void)!write(STDERR_FILENO, over_limit, strlen(over_limit));
+    _exit(GM_EXIT_USAGE);
+}
+
+void gm_interrupts_limit(rlim_t seconds, const char *sentence)
+{
+    struct rlimit limit;
+    over_limit = sentence;
+    getrlimit(RLIMIT_CPU, &limit);
+    limit.rlim_cur = seconds < limit.rlim_cur ? seconds : limit.rlim_cur;
+    signal(SIGXCPU, end_at_limit);
+    setrlimit(RLIMIT_CPU, &limit);
 }

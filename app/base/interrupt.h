@@ -4,6 +4,7 @@
 
 #include <signal.h>
 #include <stdbool.h>
+#include <sys/resource.h>
 
 /* The number of signals SIGINT and SIGTERM; long work checks it between steps. */
 extern volatile sig_atomic_t gm_interrupted;
@@ -21,6 +22,10 @@ void gm_interrupts_seen(void);
 /* With `at_once` a signal, also an earlier one, ends the process at once with status 130: for long work
    that cannot check the count, while no file is unfinished. */
 void gm_interrupts_end(bool at_once);
+
+/* Ends the process with GM_EXIT_USAGE and this sentence on standard error after these seconds of CPU time, or fewer if
+   the process has a lower limit (ulimit -S -t): for work that a file of somebody else asks for. */
+void gm_interrupts_limit(rlim_t seconds, const char *sentence);
 
 /* Exit statuses of the program. */
 enum {

@@ -136,7 +136,7 @@ int gm_command_tour(const struct gm_options *options)
 
 int gm_command_grade(const struct gm_options *options)
 {
-    enum { MOST_BYTES = 1 << 16 };
+    enum { MOST_BYTES = 1 << 16, MOST_SECONDS = 60 };
     char message[GM_MESSAGE];
     char *const *words = options->arguments.words;
     struct gm_file file = {0};
@@ -150,6 +150,9 @@ int gm_command_grade(const struct gm_options *options)
     gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
     gm_arena_keep(options->arena, text, free);
     gm_catch_interrupts();
+    gm_interrupts_limit(MOST_SECONDS,
+                        "geomint: the answer needs more than a minute of CPU time, so it has no "
+                        "verdict; take fewer steps or a scheme that needs less\n");
     const int status = gm_answer_grade(text, size, words[1], message);
     if (gm_interrupted) {
         return GM_EXIT_INTERRUPTED;

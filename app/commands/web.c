@@ -9,9 +9,12 @@
 #include "app/native/cache.h"
 #include "app/output/say.h"
 #include "app/tours/tour.h"
+#include "app/words/drive.h"
+#include "app/words/names.h"
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
+#include "core/linear/cholesky.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
@@ -23,8 +26,16 @@ struct lesson {
     const char *title;
     const struct gm_tour *tour;
     const struct gm_arguments *words; /* of the view */
-    struct gm_arguments *files;       /* name and text of each */
+    struct gm_arguments *files;       /* path, name and text of each */
 };
+
+/* The paths of the files that were read for the view. */
+static struct gm_arguments *seen;
+
+static void see(const char *path)
+{
+    gm_arguments_add(seen, path);
+}
 
 /* The word without the folders of its file, which is added to the page. */
 static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
@@ -39,32 +50,34 @@ static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind
     char *text = gm_file_read(&file, LARGEST_FILE, &length, message);
     gm_command_end_if(lesson->options, !text, GM_EXIT_FILE, "%s", message);
     gm_arena_keep(lesson->options->arena, text, free);
-    for (int i = 0; i < lesson->files->count; i += 2) {
-        if (strcmp(lesson->files->words[i], name) == 0) {
-            gm_command_end_if(lesson->options, strcmp(lesson->files->words[i + 1], text) != 0, GM_EXIT_USAGE,
+    for (int i = 0; i < lesson->files->count; i += 3) {
+        if (strcmp(lesson->files->words[i + 1], name) == 0) {
+            gm_command_end_if(lesson->options, strcmp(lesson->files->words[i + 2], text) != 0, GM_EXIT_USAGE,
                               "two different files are called %.200s; rename one of them", name);
             return gm_arena_print(lesson->options->arena, "%s", name);
         }
     }
+    gm_arguments_add(lesson->files, file.path);
     gm_arguments_add(lesson->files, name);
     gm_arguments_add(lesson->files, text);
     return gm_arena_print(lesson->options->arena, "%s", name);
 }
 
-/* Refuses the user-defined schemes of a word, whose order conditions need numbers of many digits. */
-static void check_schemes(const struct gm_options *options, const char *word)
+/* The word with the names of its schemes' files, which are added to the page. */
+static const char *take_schemes(const struct lesson *lesson, const char *word)
 {
-    size_t length = 0;
-    for (const char *value = gm_word_after(word, "scheme"); value;
-         value = value[length] ? value + length + 1 : NULL) {
-        struct gm_file file;
+    struct gm_arena *arena = lesson->options->arena;
+    const char *value = gm_word_after(word, "scheme"), *taken = value ? "scheme=" : word;
+    for (size_t length; value; value = value[length] ? value + length + 1 : NULL) {
+        char message[GM_MESSAGE];
+        bool unreadable;
         length = gm_word_first(value);
-        const char *scheme = gm_arena_print(options->arena, "%.*s", (int)length, value);
-        const bool is_file = gm_file_find(GM_FILE_SCHEME, scheme, &file) && !file.built_in;
-        gm_command_end_if(options, is_file || strchr(scheme, '('), GM_EXIT_USAGE,
-                          "%.60s is a user-defined scheme; a browser has no numbers of many digits for it",
-                          scheme);
+        const char *name = gm_arena_print(arena, "%.*s", (int)length, value);
+        const struct gm_scheme *scheme = gm_scheme_named(name, &unreadable, message);
+        name = scheme && scheme->word ? take_file(lesson, GM_FILE_SCHEME, name) : name;
+        taken = gm_arena_print(arena, "%s%s%s", taken, name, value[length] ? "," : "");
     }
+    return taken;
 }
 
 /* Writes words as a list, with their files added to the page. */
@@ -74,13 +87,8 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
     struct gm_row list = gm_row_open(row, key, ']');
     for (int i = 0; i < words->count; i++) {
         const char *word = words->words[i];
-        check_schemes(lesson->options, word);
-        if (i == 0) {
-            gm_command_end_if(lesson->options, gm_file_is(GM_FILE_ROOM, word), GM_EXIT_USAGE,
-                              "%.60s is a room; a browser has no library for its sparse equations", word);
-            word = take_file(lesson, GM_FILE_SYSTEM, word);
-        }
-        gm_row_text(&list, NULL, word);
+        gm_row_text(&list, NULL,
+                    i > 0 ? take_schemes(lesson, word) : take_file(lesson, GM_FILE_SYSTEM, word));
     }
 }
 
@@ -102,7 +110,8 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
         for (size_t k = 0; k < step->change_count; k++) {
             const struct gm_tour_change *change = &step->changes[k];
             struct gm_row one = gm_row_open(&changes, NULL, '}');
-            gm_row_put(&one, "t %.17g, lane %.0f, text %s", change->t, (double)change->lane, change->text);
+            gm_row_put(&one, "t %.17g, lane %.0f, text %s", change->t, (double)change->lane,
+                       take_schemes(lesson, change->text));
         }
     }
 }
@@ -127,8 +136,8 @@ static const char *print_view(const struct lesson *lesson)
         put_tour(lesson, &view);
     }
     struct gm_row files = gm_row_open(&view, "files", '}');
-    for (int i = 0; i < lesson->files->count; i += 2) {
-        gm_row_text(&files, lesson->files->words[i], lesson->files->words[i + 1]);
+    for (int i = 0; i < lesson->files->count; i += 3) {
+        gm_row_text(&files, lesson->files->words[i + 1], lesson->files->words[i + 2]);
     }
     gm_row_close(&view, "");
     const char *text = gm_arena_keep(arena, gm_stream_end(writing), free);
@@ -169,6 +178,32 @@ static void read_tour(const struct gm_options *options, struct gm_tour *tour)
     gm_arena_keep(options->arena, tour, gm_tour_close);
 }
 
+/* Refuses lanes that need sparse equations for a step, which the page could not make. */
+static void try_lanes(const struct gm_options *options, const struct gm_request *request)
+{
+    char message[GM_MESSAGE];
+    for (size_t i = 0; i < request->count; i++) {
+        struct gm_lane *lane = gm_lane_in(options->arena, gm_request_open_lane(request, i, message), message);
+        gm_drive_to(&(struct gm_drive){.lane = lane, .request = request, .index = i}, 1, false, message);
+        gm_command_end_if(options, lane->run->status == GM_OUT_OF_MEMORY, GM_EXIT_USAGE,
+                          "the sparse equations of %.60s are solved by SuiteSparse: %s", lane->schemes,
+                          gm_cholesky_missing());
+    }
+}
+
+/* Refuses a view for which a file was read that the page does not have, such as a mesh. */
+static void check_files(const struct lesson *lesson)
+{
+    for (int i = 0, k; i < seen->count; i++) {
+        for (k = 0; k < lesson->files->count && strcmp(lesson->files->words[k], seen->words[i]) != 0;) {
+            k += 3;
+        }
+        gm_command_end_if(lesson->options, k == lesson->files->count, GM_EXIT_USAGE,
+                          "a page takes the files of systems, schemes and tours along, but not %.200s",
+                          seen->words[i]);
+    }
+}
+
 int gm_command_web(const struct gm_options *options)
 {
     char slot[GM_PAGE_SLOT];
@@ -178,11 +213,23 @@ int gm_command_web(const struct gm_options *options)
     const struct gm_scene *scene = NULL;
     gm_command_end_if(options, options->tour && lesson.words->count > 0, GM_EXIT_USAGE,
                       "web takes a scene or --tour, which has scenes of its own");
+    seen = gm_arguments_in(options->arena);
+    gm_cholesky_do_without("a browser does not have it");
+    gm_regular_watch = see;
+    const struct gm_request *request = NULL;
     if (options->tour) {
         read_tour(options, tour);
         lesson.tour = tour;
     } else if (lesson.words->count > 0) {
-        scene = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES)->scene;
+        request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
+        scene = request->scene;
+    }
+    gm_regular_watch = NULL;
+    for (size_t i = 0; i < tour->count; i++) {
+        try_lanes(options, &tour->steps[i].request);
+    }
+    if (request) {
+        try_lanes(options, request);
     }
     lesson.title = options->look.title ? options->look.title
                    : lesson.tour       ? tour->title
@@ -190,6 +237,7 @@ int gm_command_web(const struct gm_options *options)
                                        : "geomint";
     const char *page = read_page(options), *view = print_view(&lesson),
                *path = options->lesson ? options->lesson : "lesson.html";
+    check_files(&lesson);
     struct gm_text_stream writing;
     FILE *stream = gm_stream_begin(&writing);
     gm_arena_need(options->arena, stream);

@@ -176,7 +176,8 @@ static bool is_named(const struct gm_tour_step *step, const struct gm_parameter 
 /* Returns true if the answer may change a parameter. */
 static bool is_free(const struct gm_tour_step *step, const struct gm_parameter *row)
 {
-    return !row || row->looks || gm_is_setting(row) || row->offset == offsetof(struct gm_timing, dt) ||
+    return !row || row->looks || strcmp(row->key, "show") == 0 || gm_is_setting(row) ||
+           row->offset == offsetof(struct gm_timing, dt) ||
            row->offset == offsetof(struct gm_timing, until) || is_named(step, row);
 }
 

@@ -82,7 +82,7 @@ bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, c
                          struct gm_expectation *expectation, struct gm_fault *fault);
 
 /* Returns true if a lane of this request passes the exercise as it is now: it has reached the step's end, meets all
-   expectations, and differs from what the step shows in schemes, the step size and named parameters alone. The
+   expectations, and differs from what the step shows in schemes, the step size, the view and named parameters alone. The
    sentence (GM_MESSAGE bytes) gives the reason. */
 bool gm_exercise_passed(const struct gm_tour_step *step, const struct gm_request *request,
                         const struct gm_lane *const *lanes, char *sentence);

@@ -231,6 +231,11 @@ static void open_libraries(void)
     }
 }
 
+void gm_cholesky_do_without(const char *reason)
+{
+    snprintf(missing, sizeof missing, "%s", reason);
+}
+
 const char *gm_cholesky_missing(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;

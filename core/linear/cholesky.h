@@ -13,6 +13,8 @@ struct gm_cholesky;
 /* Opens the libraries on the first call. Returns NULL, or why they cannot be opened. Without them no matrix
    is factored. */
 const char *gm_cholesky_missing(void);
+/* Lets the libraries be missing from now on, for this reason: what they solve is refused, as on a machine without them. */
+void gm_cholesky_do_without(const char *reason);
 
 /* A rough factor is a preconditioner. It is stored in single precision or, if it is large and the solution
    loses little, in 16-bit integers. */

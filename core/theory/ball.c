@@ -12,14 +12,8 @@
 #include "core/functions/functions.h"
 #include "loader/library.h"
 
-/* clang-format off */
-#define FUNCTIONS(F) \
-    F(mpfr_add) F(mpfr_cmp_d) F(mpfr_const_pi) F(mpfr_cos) F(mpfr_div) F(mpfr_div_si) F(mpfr_exp) \
-    F(mpfr_free_cache) F(mpfr_get_d) F(mpfr_log) F(mpfr_mul) F(mpfr_set_d) F(mpfr_set_si_2exp) F(mpfr_sin) \
-    F(mpfr_snprintf) F(mpfr_sqrt) F(mpfr_strtofr) F(mpfr_sub)
-/* clang-format on */
-static GM_LIBRARY_TABLE(mpfr, FUNCTIONS);
-GM_LIBRARY(mpfr, "libmpfr.so.6", FUNCTIONS)
+static GM_LIBRARY_TABLE(mpfr, GM_MPFR_FUNCTIONS);
+GM_LIBRARY(mpfr, "libmpfr.so.6", GM_MPFR_FUNCTIONS)
 
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };
 static const double LARGEST = 1e6;
@@ -274,11 +268,19 @@ double gm_ball_midpoint(struct gm_ball a)
 
 void gm_ball_print(struct gm_ball a, int digits, char *text, size_t size)
 {
+    char figures[GM_BALL_DIGITS + 8];
+    mpfr_exp_t point = 0; /* the number is 0.figures 10^point */
     mpfr_t number;
     view(number, &a);
     const double value = fabs(mpfr()->mpfr_get_d(number, MPFR_RNDN));
     const int before = value > 0 ? (int)floor(gm_log10(value)) + 1 : 1;
-    mpfr()->mpfr_snprintf(text, size, "%.*Rf", digits > before ? digits - before : 0, number);
+    mpfr()->mpfr_get_str(figures, &point, 10, (size_t)(digits > before ? digits : before), number, MPFR_RNDN);
+    const char *first = figures + (figures[0] == '-');
+    const int whole = value > 0 ? (int)point : 1, rest = (int)strlen(first) - whole;
+    /* %.*d writes as many zeros as its width says */
+    snprintf(text, size, "%s%.*s%s%.*d%s", first > figures ? "-" : "", whole > 0 ? whole : 1,
+             whole > 0 ? first : "0", rest > 0 ? "." : "", whole < 0 ? -whole : 0, 0,
+             whole > 0 ? first + whole : first);
 }
 
 int gm_ball_sign(struct gm_ball a)

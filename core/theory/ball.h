@@ -6,6 +6,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* The functions of MPFR that are called. */
+/* clang-format off */
+#define GM_MPFR_FUNCTIONS(F) \
+    F(mpfr_add) F(mpfr_cmp_d) F(mpfr_const_pi) F(mpfr_cos) F(mpfr_div) F(mpfr_div_si) F(mpfr_exp) \
+    F(mpfr_free_cache) F(mpfr_get_d) F(mpfr_get_str) F(mpfr_log) F(mpfr_mul) F(mpfr_set_d) F(mpfr_set_si_2exp) \
+    F(mpfr_sin) F(mpfr_sqrt) F(mpfr_strtofr) F(mpfr_sub)
+/* clang-format on */
+
 /* A number that is known within a bound, |x - midpoint| <= radius: exact order conditions are decided with
    these. The midpoint has 256 bits (77 digits); results are rounded, and their bound says by how much. A
    plain value: nothing is allocated, nothing is freed. */

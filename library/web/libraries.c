@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The browser's loader: FreeType is linked, fontconfig is the four fonts of the folder /fonts, and every other library
-   is missing. Threads do their work when they are started, since a page without special headers has none. */
+/* The browser's loader: FreeType and MPFR are linked, fontconfig is the three fonts of the folder /fonts, and every
+   other library is missing. Threads do their work when they are started, since a page without special headers has none. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
@@ -9,9 +9,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
+#include "core/theory/ball.h"
 #include "render/drawing/fonts.h"
-
-static const char fonts[] = "libfontconfig.so.1";
 
 /* ---- fontconfig: a pattern is a font ---- */
 
@@ -20,8 +19,9 @@ struct _FcPattern {
 };
 
 static struct _FcPattern pattern;
+/* The bold letters of fixed width are those of screens of a terminal, which a page does not draw. */
 static const char *const files[2][2] = {{"/fonts/DejaVuSans.ttf", "/fonts/DejaVuSans-Bold.ttf"},
-                                        {"/fonts/DejaVuSansMono.ttf", "/fonts/DejaVuSansMono-Bold.ttf"}};
+                                        {"/fonts/DejaVuSansMono.ttf", "/fonts/DejaVuSansMono.ttf"}};
 
 FcConfig *FcInitLoadConfigAndFonts(void)
 {
@@ -103,7 +103,9 @@ void *__wrap_dlopen(const char *name, int mode)
 {
     (void)mode;
     wanted_library = name ? name : "";
-    return strcmp(wanted_library, fonts) == 0 ? (void *)fonts : NULL;
+    const bool is_linked =
+        strcmp(wanted_library, "libfontconfig.so.1") == 0 || strcmp(wanted_library, "libmpfr.so.6") == 0;
+    return is_linked ? (void *)wanted_library : NULL;
 }
 
 int __wrap_dlclose(void *library)
@@ -124,11 +126,12 @@ char *__wrap_dlerror(void)
 
 void *__wrap_dlsym(void *library, const char *name)
 {
+    (void)library;
     static const struct {
         const char *name;
         gm_library_function function;
-    } linked[] = {GM_FONT_FUNCTIONS(ROW)};
-    for (size_t i = 0; library == fonts && i < sizeof linked / sizeof *linked; i++) {
+    } linked[] = {GM_FONT_FUNCTIONS(ROW) GM_MPFR_FUNCTIONS(ROW)};
+    for (size_t i = 0; i < sizeof linked / sizeof *linked; i++) {
         if (strcmp(linked[i].name, name) == 0) {
             return (void *)linked[i].function;
         }

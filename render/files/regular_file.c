@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+void (*gm_regular_watch)(const char *path);
+
 static void explain(char *reason, int error)
 {
     snprintf(reason, GM_REGULAR_REASON, "%s", strerror(error));
@@ -53,6 +55,9 @@ FILE *gm_regular_open(const char *path, size_t most, size_t *size, char *reason)
         FILE *file = fdopen(descriptor, "rb");
         if (file) {
             *size = (size_t)status.st_size;
+            if (gm_regular_watch) {
+                gm_regular_watch(path);
+            }
             return file;
         }
         explain(reason, errno);

@@ -16,4 +16,7 @@ FILE *gm_regular_open(const char *path, size_t most, size_t *size, char *reason)
 /* Returns the whole file and a final zero, which the caller frees; NULL with a reason. */
 char *gm_regular_read(const char *path, size_t most, size_t *size, char *reason);
 
+/* Called with the path of every file that is opened; NULL: nothing is. */
+extern void (*gm_regular_watch)(const char *path);
+
 #endif

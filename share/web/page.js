@@ -4,7 +4,7 @@
 
 const at = id => document.getElementById(id);
 const lesson = JSON.parse(at('view').textContent), parts = JSON.parse(at('parts').textContent);
-const canvas = at('picture'), dark = matchMedia('(prefers-color-scheme: dark)');
+const canvas = at('picture'), paper = canvas.getContext('bitmaprenderer', {alpha: false}), dark = matchMedia('(prefers-color-scheme: dark)');
 // the lanes' colours of pictures, light and dark
 const colours = [['#0379db', '#83d1ff'], ['#ec5100', '#ffa226'], ['#1aa770', '#72ecb1'], ['#ba2787', '#d87fa7'],
     ['#7a0102', '#6272fa'], ['#03624a', '#87814a']];
@@ -98,14 +98,6 @@ function shape() {
     return ask('shape', {width, height, scale: ratio * Math.min(Math.max(box.width / 560, 0.7), 1), dark: isDark()});
 }
 
-function put(target, {width, height, rgba}) {
-    if (target.width !== width || target.height !== height) {
-        target.width = width;
-        target.height = height;
-    }
-    target.getContext('2d', {alpha: false}).putImageData(new ImageData(new Uint8ClampedArray(rgba), width, height), 0, 0);
-}
-
 function say(sentence, bad) {
     const line = make('p', {className: bad ? 'bad' : '', textContent: sentence});
     at('notice').replaceChildren(line);
@@ -119,10 +111,11 @@ const digits = (value, count = 5) => value === null || value === undefined ? 'â€
 const failures = new Set(); // the sentences that were shown
 
 function show(news) {
-    if (news.picture.refused) {
-        say(news.picture.refused, true);
+    if (news.refused) {
+        say(news.refused, true);
     } else {
-        put(canvas, news.picture);
+        Object.assign(canvas, {width: news.picture.width, height: news.picture.height});
+        paper.transferFromImageBitmap(news.picture);
     }
     document.body.dataset.frames = 1 + Number(document.body.dataset.frames || 0);
     document.body.dataset.cost = news.cost.toFixed(1);
@@ -324,13 +317,13 @@ function seek(forks) {
     at('find').scrollIntoView({block: 'center'});
 }
 
-function explain(name) {
-    const scheme = schemes.find(other => other.scheme === name);
-    if (!scheme) {
-        return;
-    }
-    sheet(scheme.title, make('pre', null, scheme.formula), make('p', null, scheme.reference || ''),
-        make('p', null, 'Its claims are measured in a terminal, as the browser has no numbers of many digits:'), make('pre', null, `geomint certify ${scheme.scheme}`),
+async function explain(name) {
+    const scheme = schemes.find(other => other.scheme === name) || {title: name, claims: []}, certificate = await ask('certify', name);
+    const measured = Object.entries(certificate?.properties || {}).filter(([, claim]) => claim.measured);
+    sheet(scheme.title, make('pre', null, scheme.formula || name), make('p', null, scheme.reference || ''),
+        make('p', null, `Measured: order ${digits(certificate?.measured_order, 4)}, and these defects.`),
+        make('table', {id: 'certificate'}, ...measured.map(([words, {claimed, defect, tolerance}]) => make('tr', null, make('th', {scope: 'row'}, words),
+            make('td', null, digits(defect, 2)), make('td', null, !claimed ? 'not claimed' : defect <= tolerance ? 'holds' : 'is broken')))),
         make('p', {className: 'soft'}, `For ${scheme.for || 'these equations'}. Order ${scheme.order ?? 'unknown'}. ${scheme.claims.length > 0 ? `Claims: ${scheme.claims.join(', ')}.` : ''}`));
 }
 
@@ -520,16 +513,13 @@ function download(name, blob) {
 
 at('save').onclick = async () => {
     const words = unquoted((await ask('commands')).picture).slice(2), option = words.findIndex(word => word.startsWith('--'));
-    const list = words[words.indexOf('--changes') + 1], paper = make('canvas');
+    const list = words[words.indexOf('--changes') + 1];
     const changes = words.includes('--changes') ? list.split(/,(?=\d+:\d+:)/).map(change => /^(\d+):(\d+):(.*)$/.exec(change)) : [];
     const still = await ask('still', {words: words.slice(0, option), changes});
-    if (still.refused) {
-        say(still.refused, true);
-        return;
+    if (still.blob) {
+        download(`${view.scene}.png`, still.blob);
     }
-    put(paper, still);
-    paper.toBlob(blob => download(`${view.scene}.png`, blob), 'image/png');
-    say(`${view.scene}.png is saved.`);
+    say(still.refused || `${view.scene}.png is saved.`, still.refused);
 };
 
 let recorder = null;

@@ -10,6 +10,7 @@ let web, lab = 0; // the program, and its handle
 let view = null; // what geomint_view has last described
 let shape = {width: 0, height: 0, scale: 1, dark: false}, pixels = 0, capacity = 0;
 let playing = false, speed = 1, clock = 0, clockTime = 0, late = false;
+const paper = new OffscreenCanvas(1, 1), brush = paper.getContext('2d', {alpha: false, willReadFrequently: true});
 let agenda = [], due = []; // changes of a tour at their times, and its stop, {t, lane, text}; those that are to come
 let shown = true, stale = false, planned = false; // the page has the last frame; there is something new; a tick will come
 
@@ -98,6 +99,7 @@ function step() {
     stale = stale || view.t !== from || !playing;
 }
 
+// Draws on the paper, of which the pixels are the program's own memory; returns the sentence of a refusal or null.
 function draw(handle, width, height, scale, dark) {
     const size = 4 * width * height;
     if (size > capacity) {
@@ -105,16 +107,21 @@ function draw(handle, width, height, scale, dark) {
         pixels = web.___wrap_malloc(size);
         capacity = size;
     }
+    Object.assign(paper, {width, height});
     call('theme', handle, dark ? 'dark' : 'light');
     const status = call('draw', handle, width, height, scale, pixels);
-    const refused = status === 0 || status === 2 ? null : sentence(handle); // 2: a lane has failed, and is drawn
-    return {refused, width, height, rgba: web.HEAPU8.slice(pixels, pixels + size).buffer};
+    if (status !== 0 && status !== 2) { // 2: a lane has failed, and is drawn
+        return sentence(handle);
+    }
+    brush.putImageData(new ImageData(new Uint8ClampedArray(web.HEAPU8.buffer, pixels, size), width, height), 0, 0);
+    return null;
 }
 
 function show() {
-    const begun = performance.now(), picture = draw(lab, shape.width, shape.height, shape.scale, shape.dark);
+    const begun = performance.now(), refused = draw(lab, shape.width, shape.height, shape.scale, shape.dark);
+    const picture = refused ? null : paper.transferToImageBitmap();
     shown = stale = false;
-    postMessage({picture, view, playing, late, cost: performance.now() - begun}, [picture.rgba]);
+    postMessage({refused, picture, view, playing, late, cost: performance.now() - begun}, picture ? [picture] : []);
 }
 
 function plan() {
@@ -228,9 +235,14 @@ const orders = {
         const passed = call('grade', lab, tour, step) === 0;
         return {passed, verdict: sentence(lab), answer};
     },
+    certify(scheme) {
+        const handle = call('certify', scheme, []), certificate = JSON.parse(text(call('text', handle)) || 'null');
+        call('close', handle);
+        return certificate;
+    },
     commands() { call('theme', lab, 'light'); return JSON.parse(text(call('commands', lab))); },
     // The picture of a command line, `geomint render` of these words with these changes.
-    still({words, changes}) {
+    async still({words, changes}) {
         const handle = call('open', words), counted = step => [step | 0, Math.floor(step / 2 ** 32)];
         for (const [, lane, step, change] of changes) {
             call('change', handle, Number(lane), ...counted(Number(step)), change);
@@ -241,9 +253,9 @@ const orders = {
                 call('step', handle, lane, ...counted(left < 0 ? 1000 : left));
             }
         }
-        const picture = draw(handle, 1280, 720, 1, false);
+        const refused = draw(handle, 1280, 720, 1, false);
         call('close', handle);
-        return picture;
+        return refused ? {refused} : {blob: await paper.convertToBlob()};
     },
 };
 
@@ -253,9 +265,7 @@ onmessage = async ({data: {id, name, value}}) => {
         postMessage({id, answer});
         plan();
     } catch (error) {
-        // the program ends itself only if a library is missing: that of numbers of many digits
-        const sentence = 'certificates and schemes of your own need numbers of many digits, which a browser does not have';
-        postMessage({crash: error.name === 'ExitStatus' ? sentence : String(error.message || error)});
+        postMessage({crash: String(error.message || error)});
     }
 };
 self.onunhandledrejection = event => postMessage({crash: String(event.reason)});

@@ -757,13 +757,33 @@ END
 printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
 refused 1 'wrong.system:4:' web wrong.system -o none.html
 refused 1 'sphere' web disc scheme=sphere -o none.html
-refused 1 'cavity is a room; a browser has no library' web cavity -o none.html
-refused 1 'room is a room; a browser has no library' web --tour room -o none.html
+# what the page could not open is refused before: equations for SuiteSparse, and files that it does not have
+for scene in cavity room; do
+    refused 1 'the equations of a flow are solved by SuiteSparse: a browser does not have it' web $scene -o none.html
+done
+refused 3 'flow are solved by SuiteSparse: a browser does not have it' web --tour room -o none.html
+refused 1 'forms are solved by SuiteSparse: a browser does not have it' web form-poisson -o none.html
+refused 3 'forms are solved by SuiteSparse: a browser does not have it' web form-cochain -o none.html
+status 0 web form-heat -o page.html
+printf '%s\n' '$MeshFormat' '2.2 0 8' '$EndMeshFormat' '$Nodes' 4 '1 0 0 0' '2 1 0 0' '3 .5 .8 0' '4 1.5 .8 0' '$EndNodes' \
+    '$Elements' 2 '1 2 2 1 1 1 2 3' '2 2 2 1 1 2 4 3' '$EndElements' >two.msh
+printf 'mesh: two.msh\nfield: u = 0-form\nrate: u = laplace(u)\nstart: u = 1 + x\nschemes: rk4\ndt: 0.05\n' >plate.system
+status 0 run plate.system steps=1
+refused 1 'a page takes the files of systems, schemes and tours along, but not two.msh' web plate.system -o none.html
 refused 1 'web takes a scene or --tour' web disc --tour area -o none.html
 refused 3 'none/page.html could not be written: No such file' web disc -o none/page.html
 "$geomint" list crouzeix3 --source >own.scheme
-refused 1 'own.scheme is a user-defined scheme; a browser has no' web disc scheme=rk4,./own.scheme -o none.html
-refused 1 'is a user-defined scheme' web disc 'scheme=composition(verlet; 1/2, 1/2)' -o none.html
+printf 'title: T\nabout: A\nstep: A\nsay: A.\nshow: disc scheme=rk4\nuntil: 1\nat: 0.5 scheme=deep/own.scheme\n' >systems/own.tour
+cp own.scheme systems/deep
+status 0 web disc 'scheme=rk4,./own.scheme,composition(verlet; 1/2, 1/2)' -o page.html
+status 0 web --tour systems/own.tour -o tour.html
+python3 - <<'END' || fail 'the schemes of a page'
+import json
+view, tour = (json.loads(open(name).read()[3:-5]) for name in ["page.html", "tour.html"])
+assert view["words"] == ["disc", "scheme=rk4,own.scheme,composition(verlet; 1/2, 1/2)"], view["words"]
+assert tour["steps"][0]["changes"][0]["text"] == "scheme=own.scheme", tour["steps"]
+assert view["files"]["own.scheme"] == tour["files"]["own.scheme"] == open("own.scheme").read()
+END
 mkdir other && sed 's/H: /H: 2*/' systems/deep/own.system >other/own.system
 printf 'title: T\nabout: A\nstep: A\nsay: A.\nshow: systems/deep/own.system\nuntil: 1\nstep: B\nsay: B.\nshow: other/own.system\nuntil: 1\n' >two.tour
 refused 1 'two different files are called own.system' web --tour ./two.tour -o none.html

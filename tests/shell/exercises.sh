@@ -56,6 +56,10 @@ misses 'order > 1.5' 2 5317 'stiff scheme=symplectic-euler dt=0.0395' '0 5317 sc
 passes 3 629 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.1'
 misses 'position_error < 1e-8' 3 636 'kepler eccentricity=0.9 scheme=logh-suzuki4 dt=0.1'
 misses 'evaluations < 20000' 3 1257 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.05'
+for show in q1:p1 t:all; do
+    passes 3 629 "kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.1 show=$show" # the view is free
+    passes 3 629 'kepler eccentricity=0.9 scheme=logh-kahan-li8 dt=0.1' "0 100 show=$show"
+done
 misses 'another eccentricity' 3 629 'kepler eccentricity=0.1 scheme=logh-kahan-li8 dt=0.1'
 
 kutta='explicit(0,\ 0,\ 0\ |\ 1/2,\ 0,\ 0\ |\ -1,\ 2,\ 0;\ 1/6,\ 2/3,\ 1/6'
@@ -119,6 +123,16 @@ bad 'did you mean verlet' 'tour: exercises\nstep: 1\nrun: disc scheme=verlett\ns
 bad 'LANE STEP key=value' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4\nsteps: 1\nchange: x\n'
 bad 'cannot be changed' 'tour: exercises\nstep: 1\nrun: disc scheme=rk4\nsteps: 2\nchange: 0 1 radius=1\n'
 bad 'at most 2048 bytes' "tour: $(head -c 2050 /dev/zero | tr '\0' x)\n"
+
+# an answer that takes too long has no verdict; a lower limit of the process counts
+limited() {
+    (ulimit -S -t 1 && exec "$geomint" grade x.answer) >out 2>err
+    status=$?
+    [ $status = 1 ] && [ ! -s out ] && grep -q 'more than a minute of CPU time' err ||
+        fail "$1 ends with $status: $(cat out err)"
+}
+answer 1 100000000 'disc scheme=gauss4 dt=1'
+limited 'an answer of many steps'
 
 # a condition is read with the tour: a mistake in it has its line and a caret
 head='title: x\nstep: a\nsay: b\nask: c\nanswer: d\nshow: kepler scheme=rk4\nuntil: 1\n'

@@ -390,6 +390,20 @@ static void decimals(void **unused)
     memset(text + 3, '0', 500);
     strcpy(text + 503, "1");
     assert_true(gm_ball_decimal(text, strlen(text), 0.5).radius > 0);
+    static const struct {
+        const char *text, *printed;
+        int digits;
+    } prints[] = {
+        {"0", "0.00", 3},       {"12345", "12345", 3},      {"-1.5", "-1.50", 3},
+        {"0.5", "0.500", 3},    {"0.0625", "0.0625000", 6}, {"-0.0009765625", "-0.0009765625", 7},
+        {"99.996", "100.0", 4}, {"0.099996", "0.1000", 4},  {"1.3512071919596576", "1.35120719195965760", 18},
+    };
+    for (size_t i = 0; i < GM_COUNT(prints); i++) {
+        const char *const typed_text = prints[i].text;
+        gm_ball_print(gm_ball_decimal(typed_text, strlen(typed_text), strtod(typed_text, NULL)),
+                      prints[i].digits, text, sizeof text);
+        assert_string_equal(text, prints[i].printed);
+    }
 }
 
 /* The coefficient of a word in the product of the flows exp(c_i X_i), against 1 / n! of exp(A + B): a

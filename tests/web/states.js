@@ -40,7 +40,7 @@ require(fs.realpathSync(program))({wasmBinary: fs.readFileSync(program.replace(/
         return [sum];
     };
     web.FS.mkdir('/fonts');
-    for (const font of ['DejaVuSans', 'DejaVuSans-Bold', 'DejaVuSansMono', 'DejaVuSansMono-Bold']) {
+    for (const font of ['DejaVuSans', 'DejaVuSans-Bold', 'DejaVuSansMono']) {
         web.FS.writeFile(`/fonts/${font}.ttf`, fs.readFileSync(`${fonts}/${font}.ttf`));
     }
     for (const line of fs.readFileSync(0, 'utf8').split('\n').filter(Boolean)) {
