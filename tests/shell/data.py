@@ -457,6 +457,12 @@ def continued():
         geomint(f"run kepler eccentricity=0.3 steps=12 --continue other.check --save c.{ending}")
         geomint(f"run kepler eccentricity=0.3 steps=12 --save d.{ending}")
         check(bytes_of(f"c.{ending}").replace(b'"c/', b'"d/').replace(b">c/", b">d/") == bytes_of(f"d.{ending}"), "a refused run left the other's")
+    # rows that are fewer than the checkpoint counts
+    for ending in ("npz", "csv", "pvd", "xdmf"):
+        geomint(f"run kepler steps=7 --checkpoint c.check --save c.{ending}")
+        os.truncate(f"c.{ending}.part/lane-0", 90)
+        refused = geomint(f"run kepler steps=12 --continue c.check --save c.{ending}", 3).stderr
+        check(refused == f"geomint: c.{ending} could not be written: its rows so far are damaged; run it without --continue\n", refused)
     # a slip loses nothing of what was saved, and of a system with time in it there is one t
     with open("driven.system", "w") as file:
         file.write("coordinates: q\nH: p_q^2/2 + q^2/2 - q*sin(t)\nstart: q = 1, p_q = 0\ndt: 0.1\n")
