@@ -11,7 +11,6 @@ another one every day (--day). --only: commands that hold these words alone. For
 
 import argparse
 import concurrent.futures
-import json
 import os
 import re
 import shutil
@@ -253,9 +252,9 @@ class Command:
         for line in lines:
             if line in known or not re.search(r"\d", line):
                 continue
-            if re.match(r'\{.*"status":"out-of-memory".*\}$', line):
+            if re.match(r'\{.*"status":"(out-of-memory|interrupted)".*\}$', line):
                 continue
-            if re.search(r"^  status +out-of-memory$", output, re.M):
+            if re.search(r"^  status +(out-of-memory|interrupted)$", output, re.M):
                 continue
             return f"a line that should not be: {line[:300]}"
         return ""
