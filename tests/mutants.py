@@ -15,6 +15,7 @@ one of these words; --show: the mutants, which are not built."""
 
 import argparse
 import concurrent.futures
+import io
 import json
 import os
 import random
@@ -23,6 +24,7 @@ import resource
 import signal
 import subprocess
 import sys
+import tarfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -136,23 +138,32 @@ def change_of(place):
 
 
 def write(folder, picked):
-    """A copy of the committed sources with the mutants."""
-    archive = subprocess.run(["git", "-C", ROOT, "archive", "HEAD"], check=True, capture_output=True).stdout
-    os.makedirs(folder, exist_ok=True)
-    subprocess.run(["tar", "-x", "-C", folder], input=archive, check=True)
+    """A copy of the committed sources with the mutants; a file that is there as it should be is not written again."""
     by_file = {}
     for number, place in enumerate(picked, 1):
         by_file.setdefault(place[0], []).append((number, place))
-    for name, mutants in by_file.items():
-        path = os.path.join(folder, name)
-        with open(path, encoding="utf-8") as file:
-            lines = file.read().split("\n")
-        for number, (_, at, begin, end, text, _) in mutants:
-            lines[at] = lines[at][:begin] + text.replace("GM_NUMBER", str(number)) + lines[at][end:]
-        include = next(i for i, line in enumerate(lines) if line.startswith("#include"))
-        lines.insert(include, HEAD)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("\n".join(lines))
+    archive = subprocess.run(["git", "-C", ROOT, "archive", "HEAD"], check=True, capture_output=True).stdout
+    with tarfile.open(fileobj=io.BytesIO(archive)) as files:
+        for member in files:
+            path = os.path.join(folder, member.name)
+            if not member.isfile():
+                files.extract(member, folder)
+                continue
+            content = files.extractfile(member).read()
+            if member.name in by_file:
+                lines = content.decode().split("\n")
+                for number, (_, at, begin, end, text, _) in by_file[member.name]:
+                    lines[at] = lines[at][:begin] + text.replace("GM_NUMBER", str(number)) + lines[at][end:]
+                include = next(i for i, line in enumerate(lines) if line.startswith("#include"))
+                content = "\n".join(lines[:include] + [HEAD] + lines[include:]).encode()
+            if os.path.exists(path):
+                with open(path, "rb") as file:
+                    if file.read() == content:
+                        continue
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "wb") as file:
+                file.write(content)
+            os.chmod(path, member.mode)
 
 
 def build(folder, picked):
@@ -223,19 +234,22 @@ def reach(folder, test, longest):
     return (seconds, reached) if passed else None
 
 
-def reaches(folder, pool, longest):
+def reaches(folder, picked, pool, longest):
     """For every test its command, its time, and the mutants that it reaches, the quickest first."""
     introspected = subprocess.run(["meson", "introspect", "--tests", os.path.join(folder, "build")], check=True, capture_output=True)
     tests = {test["name"]: test for test in json.loads(introspected.stdout)
              if any(suite.endswith(":fast") for suite in test["suite"]) and not any(suite.endswith(":terminal") for suite in test["suite"])}
     path = os.path.join(folder, "reached.json")
-    if not os.path.exists(path):
+    known = {}
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            known = json.load(file)
+    if known.get("mutants") != [list(place) for place in picked]:
         tries = {name: pool.submit(reach, folder, test, longest) for name, test in tests.items()}
-        found = {name: done.result() for name, done in tries.items()}
+        known = {"mutants": picked, "tests": {name: done.result() for name, done in tries.items()}}
         with open(path, "w", encoding="utf-8") as file:
-            json.dump(found, file)
-    with open(path, encoding="utf-8") as file:
-        found = json.load(file)
+            json.dump(known, file)
+    found = known["tests"]
     left_out = [name for name, result in found.items() if not result]
     print(f"{len(found)} tests; left out, for they take longer or fail: {', '.join(left_out) or 'none'}", flush=True)
     return sorted(((*result, tests[name]) for name, result in found.items() if result), key=lambda entry: entry[0])
@@ -283,7 +297,7 @@ def main():
     killed = same = 0
     survivors = []
     with concurrent.futures.ThreadPoolExecutor(words.jobs) as pool:
-        entries = reaches(words.folder, pool, words.longest)
+        entries = reaches(words.folder, picked, pool, words.longest)
         tries = {pool.submit(judge, number, entries, words.patience): (number, place) for number, place in enumerate(picked, 1)
                  if number not in bad}
         for done in concurrent.futures.as_completed(tries):
