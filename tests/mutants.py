@@ -57,6 +57,7 @@ static _Bool gm_mutant(int number)
 }
 """ % MOST
 
+MUTANT = re.compile(r"gm_mutant\((\d+)\)")
 OPERAND = r"[A-Za-z_][\w.\[\]]*(?:->[\w.\[\]]+)*(?:\([^()\"']*\))?|\d[\w.]*"
 BEFORE, AFTER = r"(?<=[(,!&|=?:;])\s*|(?<=return)\s+", r"(?=\s*(?:[),;?:]|&&|\|\|))"
 COMPARISON = re.compile(rf"(?:{BEFORE})(?P<a>{OPERAND}) (?P<op><=|>=|<|>|==|!=) (?P<b>{OPERAND}){AFTER}")
@@ -179,16 +180,18 @@ def build(folder, picked):
         fresh = set()
         for name, line in re.findall(r"^(?:\.\./)*([\w/.-]+\.c):(\d+):\d+: error", made.stdout, re.M):
             path = os.path.join(folder, name)
-            if not os.path.exists(path):
-                continue
-            with open(path, encoding="utf-8") as file:
+            if os.path.exists(path):
+                with open(path, encoding="utf-8") as file:
+                    fresh |= set(map(int, MUTANT.findall(file.read().split("\n")[int(line) - 1])))
+        # an error inside of a macro is another line's; the compiler prints this one, too
+        fresh = fresh or set(map(int, MUTANT.findall(made.stdout)))
+        for number in fresh:
+            name, at = picked[number - 1][:2]
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
                 lines = file.read().split("\n")
-            for number in map(int, re.findall(r"gm_mutant\((\d+)\)", lines[int(line) - 1])):
-                place = picked[number - 1]
-                with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-                    lines[int(line) - 1] = file.read().split("\n")[place[1]]
-                fresh.add(number)
-            with open(path, "w", encoding="utf-8") as file:
+            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                lines[at + HEAD.count("\n") + 1] = file.read().split("\n")[at]
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
         if not fresh - bad:
             sys.exit(made.stdout[-3000:])

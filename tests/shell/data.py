@@ -370,6 +370,13 @@ def tracks():
         check(len(keys) > 1 and all(len(saved[k]) == len(saved[k + "_t"]) > 0 for k in keys if k != "meta"),
               f"tracks {saved.files}")
     check("npz" in geomint("run henon-heiles until=2 --save-tracks t.csv", 1).stderr, "tracks to a CSV file")
+    # those that are thinned, or hold the last entries alone, have the states of the saved rows: every eighth of 50000
+    geomint("run kepler scheme=verlet dt=0.01 steps=50000 --save-tracks t.npz --save s.npz")
+    with numpy.load("t.npz") as saved, numpy.load("s.npz") as rows:
+        states = numpy.stack([rows[name] for name in ("q1", "q2", "p1", "p2")], axis=1)
+        check(same(saved["past_t"], rows["t"][::8]) and same(saved["past"], states[::8]), "a track that was thinned")
+        last = len(saved["trail"])
+        check(last > 1000 and same(saved["trail_t"], rows["t"][-last:]) and same(saved["trail"], states[-last:]), "a trail")
 
 
 def memory():
