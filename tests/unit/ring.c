@@ -124,7 +124,7 @@ static long double complex defining_sum(const double complex *x, size_t n, size_
 static void transforms_of_length(size_t n)
 {
     double complex *x = calloc(3 * n, sizeof *x), *y = x + n, *waves = y + n;
-    double *real = calloc(2 * n, sizeof *real), *back = real + n;
+    double *real = calloc(2 * n + 1, sizeof *real), *back = real + n;
     const double limit = 1e-15 * (2 + log2((double)n));
     double square = 0, squares = 0, real_square = 0, real_squares = 0;
     for (size_t j = 0; j < n; j++) {
@@ -133,6 +133,7 @@ static void transforms_of_length(size_t n)
         square += creal(x[j] * conj(x[j]));
         real_square += real[j] * real[j];
     }
+    const double after = back[n] = -7; /* of what lies behind the numbers nothing is written */
     struct gm_fourier *fourier = gm_fourier_open(n);
     struct gm_modes modes;
     assert_true(fourier && gm_modes_open(&modes, n, 1));
@@ -156,10 +157,38 @@ static void transforms_of_length(size_t n)
     for (size_t j = 0; j < n; j++) {
         assert_true(cabs(y[j] - x[j]) <= 4 * limit && fabs(back[j] - real[j]) <= 4 * limit);
     }
+    assert_true(back[n] == after);
     gm_fourier_close(fourier);
     gm_modes_close(&modes);
     free(x);
     free(real);
+}
+
+/* Fields that lie one after the other: each has its own modes, and comes back. */
+static void transforms_of_fields(void **unused)
+{
+    (void)unused;
+    enum { FIELDS = 3, MOST = 10 };
+    for (size_t n = MOST - 1; n <= MOST; n++) {
+        struct gm_modes all, one;
+        double values[FIELDS * MOST], given[FIELDS * MOST];
+        double complex waves[FIELDS * MOST], wave[MOST];
+        assert_true(gm_modes_open(&all, n, FIELDS) && gm_modes_open(&one, n, 1));
+        for (size_t j = 0; j < FIELDS * n; j++) {
+            values[j] = given[j] = sin(1 + 3.7 * (double)j);
+        }
+        gm_modes_forward(&all, values, waves);
+        for (size_t k = 0; k < FIELDS; k++) {
+            gm_modes_forward(&one, given + k * n, wave);
+            assert_memory_equal(waves + k * n, wave, (n / 2 + 1) * sizeof *wave);
+        }
+        gm_modes_back(&all, waves, values);
+        for (size_t j = 0; j < FIELDS * n; j++) {
+            assert_true(fabs(values[j] - given[j]) < 1e-14);
+        }
+        gm_modes_close(&all);
+        gm_modes_close(&one);
+    }
 }
 
 static void transforms_of_any_length(void **unused)
@@ -233,6 +262,19 @@ static void a_root_on_the_unit_circle(void **unused)
             assert_true((i >= GUARD && i < GUARD + n) || room[i] == 7);
         }
     }
+}
+
+/* A polynomial whose root (difference - mean)/(difference + mean) is nearer to the unit circle than it can be told is
+   refused; 1 - 1e-13 in magnitude is solved. */
+static void roots_near_the_unit_circle(void **unused)
+{
+    (void)unused;
+    struct gm_ring_roots ring;
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 1, 5e-15 + I, 2));
+    assert_true(gm_ring_roots_make(&ring, 9, 1, 1, 1e-13 + I, 2));
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 1, -1, 2)); /* it is no polynomial of z */
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 0, 0, 2));
+    assert_false(gm_ring_roots_make(&ring, 9, 1, NAN, 1, 2));
 }
 
 /* The largest entry of B y_i + C y_{i+1} - g_i around a ring of `count` points. */
@@ -354,9 +396,14 @@ static void systems_are_solved_by_gmres(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rings_are_solved),           cmocka_unit_test(a_root_on_the_unit_circle),
-        cmocka_unit_test(rings_of_blocks_are_solved), cmocka_unit_test(systems_are_solved_by_gmres),
-        cmocka_unit_test(transforms_of_any_length),   cmocka_unit_test(transforms_have_the_same_bits),
+        cmocka_unit_test(rings_are_solved),
+        cmocka_unit_test(a_root_on_the_unit_circle),
+        cmocka_unit_test(roots_near_the_unit_circle),
+        cmocka_unit_test(rings_of_blocks_are_solved),
+        cmocka_unit_test(systems_are_solved_by_gmres),
+        cmocka_unit_test(transforms_of_fields),
+        cmocka_unit_test(transforms_of_any_length),
+        cmocka_unit_test(transforms_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
