@@ -132,6 +132,12 @@ def folder_of(name):
     return "/".join(os.path.dirname(name).split("/")[:3])
 
 
+def line_of(place):
+    """The line of the source that a mutant changes."""
+    with open(os.path.join(ROOT, place[0]), encoding="utf-8") as file:
+        return file.read().split("\n")[place[1]].strip()
+
+
 def change_of(place):
     """The change, as a reader names it."""
     found = re.fullmatch(r"\(gm_mutant\(GM_NUMBER\) \? (.*?) : (.*)\)", place[4])
@@ -293,8 +299,8 @@ def main():
     with open(os.path.join(ROOT, "tests", "mutants.equivalent"), encoding="utf-8") as file:
         for line in file:
             if line.strip() and not line.startswith("#"):
-                name, change, reason = line.rstrip("\n").split(" | ")
-                equivalent[name, change] = reason
+                name, *text, change, reason = line.rstrip("\n").split(" | ")
+                equivalent[name, " | ".join(text), change] = reason
     write(words.folder, picked)
     bad = build(words.folder, picked)
     killed = same = 0
@@ -310,9 +316,9 @@ def main():
             if killer:
                 killed += 1
                 print(f"{where}: killed by {killer}", flush=True)
-            elif (place[0], change_of(place)) in equivalent:
+            elif (place[0], line_of(place), change_of(place)) in equivalent:
                 same += 1
-                print(f"{where}: equivalent, {equivalent[place[0], change_of(place)]}", flush=True)
+                print(f"{where}: equivalent, {equivalent[place[0], line_of(place), change_of(place)]}", flush=True)
             else:
                 survivors.append(where)
                 print(f"{where}: SURVIVES {asked} tests", flush=True)
