@@ -2,62 +2,62 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many small faults in the program the tests see.
 
-    mutants.py FOLDER [--count 200] [--seed 1] [--only WORDS] [--jobs 2] [--show]
+    mutants.py FOLDER [--count 200] [--seed 1] [--only WORDS] [--jobs 2] [--longest 40] [--patience 120] [--show]
 
 A mutant is the program with one fault: a statement left out, a comparison turned, a number one too large, + for -, ||
 for &&. FOLDER gets a copy of the committed sources in which all mutants stand side by side, behind a number that
-GM_MUTANT chooses when the program runs. So one build serves all of them, and a mutant costs its tests alone. They
-run until one fails. A mutant that none of them kills is printed; it wants a test, or a line in mutants.equivalent with
-the reason why no test can see it. --only: files that hold these words; --show: the mutants, which are not built."""
+GM_MUTANT chooses when the program runs. So one build serves all of them, and a mutant costs its tests alone. First every
+test of the suite `fast` that waits for no terminal runs once without a fault, which shows the mutants that it reaches
+(FOLDER/reached.json; those slower than --longest seconds are left out). Then the tests that reach a mutant run with it,
+the quickest first, until one fails or they would have taken --patience seconds. A mutant that none of them kills is
+printed; it wants a test, or a line in mutants.equivalent with the reason why no test can see it. --only: files that hold
+one of these words; --show: the mutants, which are not built."""
 
 import argparse
 import concurrent.futures
+import io
+import json
 import os
 import random
 import re
+import resource
+import signal
 import subprocess
 import sys
+import tarfile
+import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
-# Which tests see which folder, the quickest first; the first folder that holds a file counts. Tests are names in
-# `meson test --list`, of the suite `fast`.
-SEEN_BY = {
-    "core/expression": "formula choices typed|user evaluation|operations baseline|system_lines|systems|invariants found",
-    "core/model": "system_lines typed|system|user|lagrangian|user_fields|systems|input|user schemes|claims",
-    "core/theory": "theory|user_schemes|backward|splittings by parts|user schemes|claims",
-    "core/linear": "factors|ring|settled|sink|reference|flow|claims",
-    "core/ode/user": "user|lagrangian|poisson|native|engines|systems",
-    "core/ode/certify": "claims|user_schemes|names of one method",
-    "core/ode/families": "steps|reference|variational|manifold|poisson|splittings by parts|invariants held|stiff|claims",
-    "core/ode": "problems|reference|indicators|vortices|portrait|recorded runs|claims",
-    "core/field": "waves|wave_steps|local_laws|heat|burgers|kdv_moving_frames|user_fields|user_forms|recorded runs|claims",
-    "core/mesh": "lobatto|user_meshes|mesh equations|soliton command line|recorded runs|claims",
-    "core/flow": "flow|gmsh|walls|rooms|rooms of files|recorded runs|claims",
-    "core/form": "forms|forms of files",
-    "core/events": "user|systems|engines|orbits command line|recorded runs",
-    "core/run": "run|arena|engines|systems|resume|recorded runs|claims",
-    "core": "arena|run|user_schemes|typed|recorded runs|claims",
-    "scenes/common": "lane|parameter|typed|space|ticks|views|session|indicators command line|golden system",
-    "scenes": "lane|system|disc|heat|burgers|recorded runs|built-in files|command line|data|rooms of files|forms of files",
-    "app/words": "names|typed|command line|input|sentences",
-    "app/data": "data|drawings|rooms of files|resume|forms of files",
-    "render/layout": "layout|ticks|picture|pictures|golden disc|golden system|golden space",
-}
 FOLDERS = ("core", "scenes", "app/words", "app/data", "render/layout")
+MOST = 4096  # mutants
 
-HEAD = """#include <stdlib.h>
-static int gm_mutant(void)
+HEAD = """#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+static _Bool gm_mutant(int number)
 {
-    static int number = -1;
-    if (number < 0) {
-        const char *text = getenv("GM_MUTANT");
-        number = text ? atoi(text) : 0;
+    static int chosen = -1;
+    static char *reached;
+    if (chosen < 0) {
+        const char *text = getenv("GM_MUTANT"), *path = getenv("GM_MUTANTS_REACHED");
+        const int file = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+        void *map = file < 0 ? MAP_FAILED : mmap(NULL, %d, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+        if (file >= 0) {
+            close(file);
+        }
+        reached = map == MAP_FAILED ? NULL : map;
+        chosen = text ? atoi(text) : 0;
     }
-    return number;
+    if (reached) {
+        reached[number] = 1;
+    }
+    return number == chosen;
 }
-"""
+""" % MOST
 
+MUTANT = re.compile(r"gm_mutant\((\d+)\)")
 OPERAND = r"[A-Za-z_][\w.\[\]]*(?:->[\w.\[\]]+)*(?:\([^()\"']*\))?|\d[\w.]*"
 BEFORE, AFTER = r"(?<=[(,!&|=?:;])\s*|(?<=return)\s+", r"(?=\s*(?:[),;?:]|&&|\|\|))"
 COMPARISON = re.compile(rf"(?:{BEFORE})(?P<a>{OPERAND}) (?P<op><=|>=|<|>|==|!=) (?P<b>{OPERAND}){AFTER}")
@@ -95,13 +95,13 @@ def places(name, text):
                     continue
                 right = f"({a}) {op} ({b})" if kind == "logic" else f"{a} {op} {b}"
                 wrong = right.replace(f" {op} ", f" {TURNED[op]} ", 1)
-                yield name, number, found.start("a"), found.end("b"), f"(gm_mutant() == GM_NUMBER ? {wrong} : {right})", kind
+                yield name, number, found.start("a"), found.end("b"), f"(gm_mutant(GM_NUMBER) ? {wrong} : {right})", kind
         for found in NUMBER.finditer(line):
             if not declares and '"' not in line and "?" not in line and found["a"] != "0":
-                yield name, number, found.start("a"), found.end("a"), f"(gm_mutant() == GM_NUMBER ? {found['a']} + 1 : {found['a']})", "number"
+                yield name, number, found.start("a"), found.end("a"), f"(gm_mutant(GM_NUMBER) ? {found['a']} + 1 : {found['a']})", "number"
         found = STATEMENT.match(line)
         if found and before[-1:] in ";{}" and not re.match(r"(?:return|free|va_|assert|longjmp|GM_)", found["a"]):
-            yield name, number, found.start("a"), found.end("a"), f"if (gm_mutant() != GM_NUMBER) {{ {found['a']} }}", "statement"
+            yield name, number, found.start("a"), found.end("a"), f"if (!gm_mutant(GM_NUMBER)) {{ {found['a']} }}", "statement"
 
 
 def chosen(count, seed, only):
@@ -109,7 +109,8 @@ def chosen(count, seed, only):
     files = subprocess.run(["git", "-C", ROOT, "ls-files", *FOLDERS], check=True, capture_output=True, text=True).stdout.split()
     every = {}
     for name in files:
-        if name.endswith(".c") and not name.endswith(".loops.c") and only in name:
+        # what writes sources while the program is built runs in no test
+        if name.endswith(".c") and not name.endswith((".loops.c", "/main.c")) and any(word in name for word in only.split() or [""]):
             with open(os.path.join(ROOT, name), encoding="utf-8") as file:
                 for place in places(name, file.read()):
                     every.setdefault((folder_of(name), place[5]), []).append(place)
@@ -127,33 +128,49 @@ def chosen(count, seed, only):
 
 
 def folder_of(name):
-    return next(folder for folder in SEEN_BY if name.startswith((folder + "/", folder + ".")))
+    """The folder that a mutant stands for: app/data, core/ode/user, scenes/field."""
+    return "/".join(os.path.dirname(name).split("/")[:3])
+
+
+def line_of(place):
+    """The line of the source that a mutant changes."""
+    with open(os.path.join(ROOT, place[0]), encoding="utf-8") as file:
+        return file.read().split("\n")[place[1]].strip()
 
 
 def change_of(place):
     """The change, as a reader names it."""
-    found = re.fullmatch(r"\(gm_mutant\(\) == GM_NUMBER \? (.*?) : (.*)\)", place[4])
+    found = re.fullmatch(r"\(gm_mutant\(GM_NUMBER\) \? (.*?) : (.*)\)", place[4])
     return f"{found[2]} -> {found[1]}" if found else "without " + re.search(r"\{ (.*) \}", place[4])[1]
 
 
 def write(folder, picked):
-    """A copy of the committed sources with the mutants."""
-    archive = subprocess.run(["git", "-C", ROOT, "archive", "HEAD"], check=True, capture_output=True).stdout
-    os.makedirs(folder, exist_ok=True)
-    subprocess.run(["tar", "-x", "-C", folder], input=archive, check=True)
+    """A copy of the committed sources with the mutants; a file that is there as it should be is not written again."""
     by_file = {}
     for number, place in enumerate(picked, 1):
         by_file.setdefault(place[0], []).append((number, place))
-    for name, mutants in by_file.items():
-        path = os.path.join(folder, name)
-        with open(path, encoding="utf-8") as file:
-            lines = file.read().split("\n")
-        for number, (_, at, begin, end, text, _) in mutants:
-            lines[at] = lines[at][:begin] + text.replace("GM_NUMBER", str(number)) + lines[at][end:]
-        include = next(i for i, line in enumerate(lines) if line.startswith("#include"))
-        lines.insert(include, HEAD)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("\n".join(lines))
+    archive = subprocess.run(["git", "-C", ROOT, "archive", "HEAD"], check=True, capture_output=True).stdout
+    with tarfile.open(fileobj=io.BytesIO(archive)) as files:
+        for member in files:
+            path = os.path.join(folder, member.name)
+            if not member.isfile():
+                files.extract(member, folder)
+                continue
+            content = files.extractfile(member).read()
+            if member.name in by_file:
+                lines = content.decode().split("\n")
+                for number, (_, at, begin, end, text, _) in by_file[member.name]:
+                    lines[at] = lines[at][:begin] + text.replace("GM_NUMBER", str(number)) + lines[at][end:]
+                include = next(i for i, line in enumerate(lines) if line.startswith("#include"))
+                content = "\n".join(lines[:include] + [HEAD] + lines[include:]).encode()
+            if os.path.exists(path):
+                with open(path, "rb") as file:
+                    if file.read() == content:
+                        continue
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            with open(path, "wb") as file:
+                file.write(content)
+            os.chmod(path, member.mode)
 
 
 def build(folder, picked):
@@ -169,31 +186,97 @@ def build(folder, picked):
         fresh = set()
         for name, line in re.findall(r"^(?:\.\./)*([\w/.-]+\.c):(\d+):\d+: error", made.stdout, re.M):
             path = os.path.join(folder, name)
-            if not os.path.exists(path):
-                continue
-            with open(path, encoding="utf-8") as file:
+            if os.path.exists(path):
+                with open(path, encoding="utf-8") as file:
+                    fresh |= set(map(int, MUTANT.findall(file.read().split("\n")[int(line) - 1])))
+        # an error inside of a macro is another line's; the compiler prints this one, too
+        fresh = fresh or set(map(int, MUTANT.findall(made.stdout)))
+        for number in fresh:
+            name, at = picked[number - 1][:2]
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
                 lines = file.read().split("\n")
-            for number in map(int, re.findall(r"gm_mutant\(\) [!=]= (\d+)", lines[int(line) - 1])):
-                place = picked[number - 1]
-                with open(os.path.join(ROOT, name), encoding="utf-8") as file:
-                    lines[int(line) - 1] = file.read().split("\n")[place[1]]
-                fresh.add(number)
-            with open(path, "w", encoding="utf-8") as file:
+            with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+                lines[at + HEAD.count("\n") + 1] = file.read().split("\n")[at]
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
         if not fresh - bad:
             sys.exit(made.stdout[-3000:])
         bad |= fresh
 
 
-def judge(folder, number, place):
-    """The first test that fails with this mutant, or None."""
-    environment = dict(os.environ, GM_MUTANT=str(number))
-    for test in SEEN_BY[folder_of(place[0])].split("|"):
-        ran = subprocess.run(["meson", "test", "-C", os.path.join(folder, "build"), "--no-rebuild", "--logbase", f"mutant{number}",
-                              "--num-processes", "1", test], env=environment, capture_output=True, text=True)
-        if ran.returncode != 0:
-            return test
-    return None
+def limit():
+    """A mutant may run, write and allocate for ever."""
+    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 28, 1 << 28))
+    resource.setrlimit(resource.RLIMIT_AS, (1 << 33, 1 << 33))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def passes(test, seconds, **more):
+    """Whether a test passes, as meson runs it, within this time."""
+    environment = dict(os.environ, GEOMINT_PAINTER="own", MALLOC_PERTURB_="85", **test["env"], **more)
+    process = subprocess.Popen(test["cmd"], env=environment, cwd=test["workdir"], stdin=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, preexec_fn=limit)
+    try:
+        return process.wait(seconds) == 0
+    except subprocess.TimeoutExpired:
+        return False
+    finally:
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        process.wait()
+
+
+def reach(folder, test, longest):
+    """The time that a test takes without a fault, and the mutants that it reaches; None where it does not pass."""
+    path = os.path.join(folder, "reached." + test["name"].replace("/", " "))
+    with open(path, "wb") as file:
+        file.truncate(MOST)
+    start = time.monotonic()
+    passed = passes(test, longest, GM_MUTANTS_REACHED=path)
+    seconds = time.monotonic() - start
+    with open(path, "rb") as file:
+        reached = [number for number, byte in enumerate(file.read()) if byte]
+    os.unlink(path)
+    return (seconds, reached) if passed else None
+
+
+def reaches(folder, picked, pool, longest):
+    """For every test its command, its time, and the mutants that it reaches, the quickest first."""
+    introspected = subprocess.run(["meson", "introspect", "--tests", os.path.join(folder, "build")], check=True, capture_output=True)
+    tests = {test["name"]: test for test in json.loads(introspected.stdout)
+             if any(suite.endswith(":fast") for suite in test["suite"]) and not any(suite.endswith(":terminal") for suite in test["suite"])}
+    path = os.path.join(folder, "reached.json")
+    known = {}
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            known = json.load(file)
+    if known.get("mutants") != [list(place) for place in picked]:
+        tries = {name: pool.submit(reach, folder, test, longest) for name, test in tests.items()}
+        known = {"mutants": picked, "tests": {name: done.result() for name, done in tries.items()}}
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(known, file)
+    found = known["tests"]
+    left_out = [name for name, result in found.items() if not result]
+    print(f"{len(found)} tests; left out, for they take longer or fail: {', '.join(left_out) or 'none'}", flush=True)
+    return sorted(((*result, tests[name]) for name, result in found.items() if result), key=lambda entry: entry[0])
+
+
+def judge(number, entries, patience):
+    """The first test that fails with this mutant, or None; how many were asked."""
+    asked = 0
+    for seconds, reached, test in entries:
+        if number not in reached:
+            continue
+        patience -= seconds
+        if asked and patience < 0:
+            break
+        asked += 1
+        if not passes(test, 30 + 10 * seconds, GM_MUTANT=str(number)):
+            return test["name"], asked
+    return None, asked
 
 
 def main():
@@ -203,6 +286,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--longest", type=float, default=40)
+    parser.add_argument("--patience", type=float, default=120)
     parser.add_argument("--show", action="store_true")
     words = parser.parse_args()
     picked = chosen(words.count, words.seed, words.only)
@@ -214,27 +299,29 @@ def main():
     with open(os.path.join(ROOT, "tests", "mutants.equivalent"), encoding="utf-8") as file:
         for line in file:
             if line.strip() and not line.startswith("#"):
-                name, change, reason = line.rstrip("\n").split(" | ")
-                equivalent[name, change] = reason
+                name, *text, change, reason = line.rstrip("\n").split(" | ")
+                equivalent[name, " | ".join(text), change] = reason
     write(words.folder, picked)
     bad = build(words.folder, picked)
     killed = same = 0
     survivors = []
     with concurrent.futures.ThreadPoolExecutor(words.jobs) as pool:
-        tries = {pool.submit(judge, words.folder, number, place): (number, place) for number, place in enumerate(picked, 1)
+        entries = reaches(words.folder, picked, pool, words.longest)
+        tries = {pool.submit(judge, number, entries, words.patience): (number, place) for number, place in enumerate(picked, 1)
                  if number not in bad}
         for done in concurrent.futures.as_completed(tries):
             number, place = tries[done]
             where = f"{number} {place[0]}:{place[1] + 1}: {change_of(place)}"
-            if done.result():
+            killer, asked = done.result()
+            if killer:
                 killed += 1
-                print(f"{where}: killed by {done.result()}", flush=True)
-            elif (place[0], change_of(place)) in equivalent:
+                print(f"{where}: killed by {killer}", flush=True)
+            elif (place[0], line_of(place), change_of(place)) in equivalent:
                 same += 1
-                print(f"{where}: equivalent, {equivalent[place[0], change_of(place)]}", flush=True)
+                print(f"{where}: equivalent, {equivalent[place[0], line_of(place), change_of(place)]}", flush=True)
             else:
                 survivors.append(where)
-                print(f"{where}: SURVIVES", flush=True)
+                print(f"{where}: SURVIVES {asked} tests", flush=True)
     print(f"seed {words.seed}: {len(picked) - len(bad)} mutants, {killed} killed, {same} equivalent, {len(survivors)} survive")
     sys.exit(1 if survivors else 0)
 

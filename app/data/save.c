@@ -62,7 +62,9 @@ bool gm_save_fits(const char *path, const struct gm_request *request, char *mess
 
 static bool complain(const struct gm_save *save, int why, char *message)
 {
-    return gm_refuse(message, "%.360s could not be written: %s", save->saving.path, strerror(why));
+    return gm_refuse(message, "%.360s could not be written: %s", save->saving.path,
+                     why == EILSEQ ? "its rows so far are damaged; run it without --continue"
+                                   : strerror(why));
 }
 
 struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool resumable, char *message)

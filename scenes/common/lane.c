@@ -203,12 +203,9 @@ void gm_lane_note(const struct gm_lane *lane, char *sentence)
     sentence[0] = '\0';
     if (lane->scene->note) {
         lane->scene->note(&lane->problem, lane->parameters, sentence);
-    }
-    if (lane->problem.events && lane->problem.events->breaks > 0 && !gm_run_locates(lane->run)) {
-        const size_t length = strlen(sentence);
-        snprintf(sentence + length, GM_MESSAGE - length,
-                 "%s%s steps across breaks; rk4 and gauss4 locate them, for one member",
-                 length > 0 ? "; " : "", lane->scheme->name);
+    } else if (lane->problem.events && lane->problem.events->breaks > 0 && !gm_run_locates(lane->run)) {
+        snprintf(sentence, GM_MESSAGE, "%s steps across breaks; rk4 and gauss4 locate them, for one member",
+                 lane->scheme->name);
     }
 }
 

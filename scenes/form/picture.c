@@ -134,7 +134,7 @@ static void draw_numbers(struct gm_picture *picture, struct gm_panel *panel, con
         if (!first) {
             panel = gm_panel_add(picture, GM_PLACE_STATE, "");
         }
-        gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t - lane->t0, &sheet);
+        gm_form_sheet_make(picture, panel, space->complex, &self->camera, lane->run->t, &sheet);
         gm_form_draw_numbers(&sheet, type, form);
         if (!alone) {
             return;
@@ -166,7 +166,7 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
         draw_numbers(picture, panel, lane, &painted, alone);
         return;
     }
-    gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t - lane->t0, &sheet);
+    gm_form_sheet_make(picture, panel, complex, &self->camera, lane->run->t, &sheet);
     if (gm_form_shows_names(self) && !fine) {
         (self->dual ? gm_form_draw_duals : gm_form_draw_names)(&sheet);
         return;

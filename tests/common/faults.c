@@ -350,23 +350,24 @@ size_t fread(void *items, size_t size, size_t number, FILE *stream)
     return next(items, size, number, stream);
 }
 
-size_t fwrite(const void *items, size_t size, size_t number, FILE *stream)
-{
-    NEXT(fwrite)
-    if (fileno(stream) >= 0 && NO_FILE_HERE) {
-        stream->_flags |= ERROR_SEEN;
-        errno = ENOSPC;
-        return 0;
-    }
-    return next(items, size, number, stream);
-}
-
 /* The disk is full from now on, for this stream: what it holds in its buffer is lost. */
 static void fill(FILE *stream)
 {
     const int full = (int)syscall(SYS_openat, AT_FDCWD, "/dev/full", O_WRONLY, 0);
     syscall(SYS_dup3, full, fileno(stream), 0);
     syscall(SYS_close, full);
+}
+
+size_t fwrite(const void *items, size_t size, size_t number, FILE *stream)
+{
+    NEXT(fwrite)
+    if (fileno(stream) >= 0 && NO_FILE_HERE) {
+        fill(stream);
+        stream->_flags |= ERROR_SEEN;
+        errno = ENOSPC;
+        return 0;
+    }
+    return next(items, size, number, stream);
 }
 
 int fflush(FILE *stream)

@@ -66,9 +66,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         read_number(word);
         words[count++] = word;
     }
-    read_options(GM_RENDER, count, words);
-    read_options(GM_RUN, count, words);
-    read_options(GM_TOUR, count, words);
+    for (size_t i = 0; i < gm_command_count; i++) {
+        read_options(gm_commands[i].bit, count, words);
+    }
     free(text);
     return 0;
 }

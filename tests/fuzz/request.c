@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parameter parser against any words: it reads them or gives a sentence; what it has read is written so
-   that it reads the same again. */
-#include "app/words/request.h"
+   that it reads the same again. So do the commands that measure, with their lists of values. */
+#include "app/grid/grid.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -27,6 +27,22 @@ static void require(bool holds)
     if (!holds) {
         abort();
     }
+}
+
+/* The words of a measuring command, which plans its runs or gives a sentence. */
+static void read_study(enum gm_study_kind kind, const char *text)
+{
+    char message[GM_MESSAGE] = "";
+    struct gm_arguments words = {0};
+    struct gm_grid grid;
+    require(gm_arguments_split(&words, text));
+    if (gm_grid_open(&grid, kind, &words, NULL, message)) {
+        require(grid.count > 0);
+        gm_grid_close(&grid);
+    } else {
+        require(message[0] != '\0' && strlen(message) < GM_MESSAGE);
+    }
+    gm_arguments_close(&words);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -59,6 +75,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     require(gm_request_parse(&request, 1, words, 3, message));
     gm_changes_parse(&request, text);
     gm_request_close(&request);
+    for (enum gm_study_kind kind = GM_STUDY_WORK; kind < GM_STUDY_COUNT; kind++) {
+        read_study(kind, text);
+    }
     free(text);
     return 0;
 }

@@ -370,6 +370,13 @@ def tracks():
         check(len(keys) > 1 and all(len(saved[k]) == len(saved[k + "_t"]) > 0 for k in keys if k != "meta"),
               f"tracks {saved.files}")
     check("npz" in geomint("run henon-heiles until=2 --save-tracks t.csv", 1).stderr, "tracks to a CSV file")
+    # those that are thinned, or hold the last entries alone, have the states of the saved rows: every eighth of 50000
+    geomint("run kepler scheme=verlet dt=0.01 steps=50000 --save-tracks t.npz --save s.npz")
+    with numpy.load("t.npz") as saved, numpy.load("s.npz") as rows:
+        states = numpy.stack([rows[name] for name in ("q1", "q2", "p1", "p2")], axis=1)
+        check(same(saved["past_t"], rows["t"][::8]) and same(saved["past"], states[::8]), "a track that was thinned")
+        last = len(saved["trail"])
+        check(last > 1000 and same(saved["trail_t"], rows["t"][-last:]) and same(saved["trail"], states[-last:]), "a trail")
 
 
 def memory():
@@ -457,6 +464,12 @@ def continued():
         geomint(f"run kepler eccentricity=0.3 steps=12 --continue other.check --save c.{ending}")
         geomint(f"run kepler eccentricity=0.3 steps=12 --save d.{ending}")
         check(bytes_of(f"c.{ending}").replace(b'"c/', b'"d/').replace(b">c/", b">d/") == bytes_of(f"d.{ending}"), "a refused run left the other's")
+    # rows that are fewer than the checkpoint counts
+    for ending in ("npz", "csv", "pvd", "xdmf"):
+        geomint(f"run kepler steps=7 --checkpoint c.check --save c.{ending}")
+        os.truncate(f"c.{ending}.part/lane-0", 90)
+        refused = geomint(f"run kepler steps=12 --continue c.check --save c.{ending}", 3).stderr
+        check(refused == f"geomint: c.{ending} could not be written: its rows so far are damaged; run it without --continue\n", refused)
     # a slip loses nothing of what was saved, and of a system with time in it there is one t
     with open("driven.system", "w") as file:
         file.write("coordinates: q\nH: p_q^2/2 + q^2/2 - q*sin(t)\nstart: q = 1, p_q = 0\ndt: 0.1\n")

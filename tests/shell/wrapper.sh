@@ -212,6 +212,12 @@ check "as it makes it" says out '<render><kepler><scheme=rk4,rk4sym>'
 check "in its folder" says out "$folder/demo"
 check "and what to do next" says err './geomint tour'
 
+for words in '--fuzz' '5' '--fuzz 0' '--fuzz five'; do
+    # shellcheck disable=SC2086 # words
+    run "$folder/geomint" test $words
+    check "test $words is refused" same "$status" 1
+    check "with the usage" says err 'test --fuzz MINUTES'
+done
 run "$folder/geomint" test --fast
 check "a wrong option is told" same "$status" 1
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elementary functions (core/functions): against MPFR, at special values (C17, F.10), and the same bits for each set
    of instructions. Usage: functions [POINTS]. */
+#include <complex.h>
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,6 +16,7 @@
 #include <mpfr.h>
 
 #include "core/basics.h"
+#include "core/functions/complex.h"
 #include "core/functions/functions.h"
 #include "core/functions/instructions.h"
 #include "core/functions/rows.h"
@@ -211,6 +214,47 @@ static void rows_have_the_same_bits(void **unused)
     }
 }
 
+/* The difference from a value of more digits, relative to its magnitude. */
+static double apart(double complex found, long double complex wanted)
+{
+    return (double)(cabsl((long double complex)found - wanted) / cabsl(wanted));
+}
+
+/* Complex functions against those of the C library in more digits, with parts between the smallest normal number and the
+   largest one; a quotient that a number can hold neither vanishes on its way nor overflows, whatever the divisor. */
+static void complex_functions(void **unused)
+{
+    (void)unused;
+    static const double sizes[] = {0, DBL_MIN, 1e-200, 1e-30, 0.75, 1, 3, 1e30, 1e200, DBL_MAX / 2, DBL_MAX};
+    enum { COUNT = sizeof sizes / sizeof *sizes, ALL = COUNT * COUNT };
+    for (size_t i = 1; i < ALL; i++) {
+        const double a = sizes[i % COUNT] * (i % 2 ? 1 : -1), b = sizes[i / COUNT] * (i % 3 ? 1 : -1);
+        const double complex x = a + I * b;
+        if (gm_cabs(x) < DBL_MAX / 4) {
+            assert_true(apart(gm_csqrt(x), csqrtl(x)) < 5e-16);
+            assert_true(apart(gm_csqrt(x) + 1, csqrtl(x) + 1) < 5e-16); /* the same of the two roots */
+        }
+        for (size_t k = 1; k < ALL; k++) {
+            const double complex y = sizes[k % COUNT] - I * sizes[k / COUNT];
+            if (fmax(fabs(a), fabs(b)) > DBL_MAX / 4 && fmax(creal(y), -cimag(y)) < DBL_MAX / 4) {
+                continue; /* the two parts of the dividend are added */
+            }
+            const long double complex wanted = (long double complex)x / y;
+            const long double p = fabsl(creall(wanted)), q = fabsl(cimagl(wanted));
+            if (fmaxl(p, q) < DBL_MAX / 4 && fmaxl(p, q) > 4 * DBL_MIN &&
+                !(apart(gm_cdivide(x, y), wanted) < 2e-15)) {
+                fail_msg("(%g, %g) / (%g, %g)", a, b, creal(y), cimag(y));
+            }
+        }
+    }
+    assert_true(gm_csqrt(0) == 0);
+    for (int i = -20; i <= 20; i++) {
+        const double complex z = (i + 0.25) / 3 + I * (7 - i) / 2.;
+        assert_true(apart(gm_cexp(z), cexpl(z)) < 1e-15 && fabs(gm_carg(z) - carg(z)) < 1e-15);
+        assert_true(apart(gm_cpow(z, 5), (long double complex)z * z * z * z * z) < 2e-14);
+    }
+}
+
 int main(int argc, char **argv)
 {
     points = argc > 1 ? (size_t)atol(argv[1]) : points;
@@ -218,6 +262,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(errors_are_small),
         cmocka_unit_test(special_values_are_those_of_the_standard),
         cmocka_unit_test(rows_have_the_same_bits),
+        cmocka_unit_test(complex_functions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -341,6 +341,34 @@ static void crossings_are_found_by_the_scheme(void **unused)
     }
 }
 
+/* A record that was thinned knows the steps of its entries: it is shown as it was at any earlier step. */
+static void thinned_records_are_shown_at_every_step(void **unused)
+{
+    (void)unused;
+    enum { STEPS = 20000, EACH = 4 /* the bound of the record is 8192 */ };
+    struct gm_lane *lane = open_lane("kepler dt=0.01", "verlet"),
+                   *earlier = open_lane("kepler dt=0.01", "verlet");
+    struct gm_entries *past = &lane->entries[0];
+    advance(lane, STEPS);
+    assert_int_equal(past->count, STEPS / EACH + 1);
+    for (size_t i = 0; i < past->count; i++) {
+        assert_int_equal(past->steps[i], EACH * (int64_t)i);
+        assert_true(fabs(past->times[i] - 0.01 * EACH * (double)i) < 1e-9);
+    }
+    for (int64_t step = 0; step <= STEPS; step += 1777) {
+        advance(earlier, (int)(step - earlier->run->steps));
+        gm_entries_show(past, &lane->scene->tracks[0], earlier->run);
+        assert_int_equal(past->count, step / EACH + 1);
+        const struct gm_entries *other = &earlier->entries[0];
+        const size_t common = (size_t)(step - step % EACH); /* a step of both records */
+        assert_memory_equal(past->values + past->width * (common / EACH),
+                            other->values + past->width * (common / (size_t)other->every),
+                            past->width * sizeof(double));
+    }
+    gm_lane_close(earlier);
+    gm_lane_close(lane);
+}
+
 /* Steps whose stops are looked at together end where they do one by one, to the last bit: also where a stop is
    passed to and fro between two looks, and where a step fails. */
 static void stops_together(void **unused)
@@ -434,6 +462,7 @@ int main(void)
         cmocka_unit_test(channels_have_their_walls),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(crossings_are_found_by_the_scheme),
+        cmocka_unit_test(thinned_records_are_shown_at_every_step),
         cmocka_unit_test(stops_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,6 +13,8 @@
 
 #include "core/basics.h"
 #include "core/linear/fourier.h"
+#include "core/linear/gmres.h"
+#include "core/linear/ring/blocks.h"
 #include "core/linear/ring/ring.h"
 
 /* Both ring solvers against the matrix. */
@@ -122,7 +124,7 @@ static long double complex defining_sum(const double complex *x, size_t n, size_
 static void transforms_of_length(size_t n)
 {
     double complex *x = calloc(3 * n, sizeof *x), *y = x + n, *waves = y + n;
-    double *real = calloc(2 * n, sizeof *real), *back = real + n;
+    double *real = calloc(2 * n + 1, sizeof *real), *back = real + n;
     const double limit = 1e-15 * (2 + log2((double)n));
     double square = 0, squares = 0, real_square = 0, real_squares = 0;
     for (size_t j = 0; j < n; j++) {
@@ -131,6 +133,7 @@ static void transforms_of_length(size_t n)
         square += creal(x[j] * conj(x[j]));
         real_square += real[j] * real[j];
     }
+    const double after = back[n] = -7; /* of what lies behind the numbers nothing is written */
     struct gm_fourier *fourier = gm_fourier_open(n);
     struct gm_modes modes;
     assert_true(fourier && gm_modes_open(&modes, n, 1));
@@ -154,10 +157,38 @@ static void transforms_of_length(size_t n)
     for (size_t j = 0; j < n; j++) {
         assert_true(cabs(y[j] - x[j]) <= 4 * limit && fabs(back[j] - real[j]) <= 4 * limit);
     }
+    assert_true(back[n] == after);
     gm_fourier_close(fourier);
     gm_modes_close(&modes);
     free(x);
     free(real);
+}
+
+/* Fields that lie one after the other: each has its own modes, and comes back. */
+static void transforms_of_fields(void **unused)
+{
+    (void)unused;
+    enum { FIELDS = 3, MOST = 10 };
+    for (size_t n = MOST - 1; n <= MOST; n++) {
+        struct gm_modes all, one;
+        double values[FIELDS * MOST], given[FIELDS * MOST];
+        double complex waves[FIELDS * MOST], wave[MOST];
+        assert_true(gm_modes_open(&all, n, FIELDS) && gm_modes_open(&one, n, 1));
+        for (size_t j = 0; j < FIELDS * n; j++) {
+            values[j] = given[j] = sin(1 + 3.7 * (double)j);
+        }
+        gm_modes_forward(&all, values, waves);
+        for (size_t k = 0; k < FIELDS; k++) {
+            gm_modes_forward(&one, given + k * n, wave);
+            assert_memory_equal(waves + k * n, wave, (n / 2 + 1) * sizeof *wave);
+        }
+        gm_modes_back(&all, waves, values);
+        for (size_t j = 0; j < FIELDS * n; j++) {
+            assert_true(fabs(values[j] - given[j]) < 1e-14);
+        }
+        gm_modes_close(&all);
+        gm_modes_close(&one);
+    }
 }
 
 static void transforms_of_any_length(void **unused)
@@ -233,11 +264,144 @@ static void a_root_on_the_unit_circle(void **unused)
     }
 }
 
+/* A polynomial whose root (difference - mean)/(difference + mean) is nearer to the unit circle than it can be told is
+   refused; 1 - 1e-13 in magnitude is solved. */
+static void roots_near_the_unit_circle(void **unused)
+{
+    (void)unused;
+    struct gm_ring_roots ring;
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 1, 5e-15 + I, 2));
+    assert_true(gm_ring_roots_make(&ring, 9, 1, 1, 1e-13 + I, 2));
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 1, -1, 2)); /* it is no polynomial of z */
+    assert_false(gm_ring_roots_make(&ring, 9, 1, 0, 0, 2));
+    assert_false(gm_ring_roots_make(&ring, 9, 1, NAN, 1, 2));
+}
+
+/* The largest entry of B y_i + C y_{i+1} - g_i around a ring of `count` points. */
+static double block_residual(size_t count, size_t n, const double *b, const double *c)
+{
+    struct gm_ring_blocks blocks;
+    double y[4 * 40], g[4 * 40], scratch[6 * 40], largest = 0;
+    if (!gm_ring_blocks_make(&blocks, count, n, b, c)) {
+        return NAN;
+    }
+    for (size_t i = 0; i < n * count; i++) {
+        y[i] = g[i] = cos(2 + 1.9 * (double)i);
+    }
+    gm_ring_blocks_solve(&blocks, y, scratch);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t row = 0; row < n; row++) {
+            double sum = -g[row * count + i];
+            for (size_t k = 0; k < n; k++) {
+                sum += b[row * n + k] * y[k * count + i] + c[row * n + k] * y[k * count + (i + 1) % count];
+            }
+            largest = fmax(largest, fabs(sum));
+        }
+    }
+    return largest;
+}
+
+/* Pencils whose roots are a pair inside the unit circle, a pair outside, and a real one of each kind; of one unknown they
+   are the quotient -b/c. What the ring cannot damp, or has no inverse, is refused. */
+static void rings_of_blocks_are_solved(void **unused)
+{
+    (void)unused;
+    static const double inside[] = {0.3, -0.5, 0.5, 0.3}, outside[] = {1.1, -2, 2, 1.1},
+                        unit[] = {1, 0, 0, 1};
+    static const double of_four[] = {0.3, -0.5, 0.1, 0.2, 0.5, 0.3,  0, 0.1,   // rows of B: a pair inside,
+                                     0,   0,    3,   0.4, 0,   0.02, 0, -0.6}; // 3 and -0.6
+    static const double units[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (size_t count = 2; count <= 40; count += count < 5 ? 1 : 7) {
+        assert_true(block_residual(count, 2, inside, unit) < 1e-13);
+        assert_true(block_residual(count, 2, outside, unit) < 1e-12);
+        assert_true(block_residual(count, 4, of_four, units) < 1e-12);
+        assert_true(block_residual(count, 1, &(double){0.5}, &(double){-1.25}) < 1e-14);
+        assert_true(block_residual(count, 1, &(double){-2.5}, &(double){0.5}) < 1e-14);
+    }
+    assert_true(isnan(block_residual(40, 1, &(double){1}, &(double){-1}))); // a constant has no image
+    assert_true(isnan(block_residual(40, 1, &(double){1}, &(double){0})));
+    assert_true(isnan(block_residual(40, 2, unit, (double[]){1, 2, 2, 4})));
+    struct gm_ring_blocks blocks;
+    const double wide[(GM_RING_BLOCKS_MOST + 1) * (GM_RING_BLOCKS_MOST + 1)] = {0};
+    assert_false(gm_ring_blocks_make(&blocks, 40, GM_RING_BLOCKS_MOST + 1, wide, wide));
+}
+
+/* y_i = d_i x_i - x_{i-1}/2 + x_{i+1}/4, without the entries beyond the ends; with d = 0 the cyclic shift. */
+struct chain {
+    size_t n;
+    double first, slope; /* of the diagonal */
+};
+
+static void multiply(void *data, const double *x, double *y)
+{
+    const struct chain *chain = data;
+    for (size_t i = 0; i < chain->n; i++) {
+        const double diagonal = chain->first + chain->slope * (double)i;
+        y[i] = chain->first == 0
+                   ? x[(i + 1) % chain->n]
+                   : diagonal * x[i] - (i > 0 ? x[i - 1] / 2 : 0) + (i + 1 < chain->n ? x[i + 1] / 4 : 0);
+    }
+}
+
+static void divide(void *data, const double *x, double *y)
+{
+    const struct chain *chain = data;
+    for (size_t i = 0; i < chain->n; i++) {
+        y[i] = x[i] / (chain->first + chain->slope * (double)i);
+    }
+}
+
+static void copy(void *data, const double *x, double *y)
+{
+    memcpy(y, x, ((const struct chain *)data)->n * sizeof *x);
+}
+
+/* GMRES reaches a residual as small as it says, in fewer steps with a preconditioner; of three different eigenvalues it
+   needs three; the cyclic shift, on which it stagnates for n steps, is given up, and a sum of zeros costs nothing. */
+static void systems_are_solved_by_gmres(void **unused)
+{
+    (void)unused;
+    enum { N = 400 };
+    static double b[N], x[N], y[N], scratch[(2 * GM_GMRES_BASIS + 4) * N];
+    assert_true(gm_gmres_scratch(N) <= sizeof scratch / sizeof *scratch);
+    unsigned long taken[2] = {0};
+    for (int preconditioned = 0; preconditioned < 2; preconditioned++) {
+        struct chain chain = {N, 1.5, 0.02};
+        const struct gm_system system = {N, multiply, preconditioned ? divide : copy, &chain};
+        double sum = 0;
+        for (size_t i = 0; i < N; i++) {
+            b[i] = sin(1 + 3.7 * (double)i);
+        }
+        assert_true(gm_gmres(&system, b, x, 1e-9, scratch, &taken[preconditioned]));
+        multiply(&chain, x, y);
+        for (size_t i = 0; i < N; i++) {
+            sum += (y[i] - b[i]) * (y[i] - b[i]);
+        }
+        assert_true(sqrt(sum) < 1.01e-9);
+    }
+    assert_true(taken[1] < taken[0] && taken[1] < 20 && taken[0] < 2 * GM_GMRES_BASIS);
+    struct chain two = {2, 3, 1}, shift = {N, 0, 0};
+    const struct gm_system small = {2, multiply, copy, &two}, turning = {N, multiply, copy, &shift};
+    unsigned long iterations = 0;
+    assert_true(gm_gmres(&small, (double[]){1, 0}, x, 1e-14, scratch, &iterations));
+    /* by hand: 3 x + y/4 = 1, -x/2 + 4 y = 0 */
+    assert_true(iterations == 2 && fabs(x[0] - 32. / 97) < 1e-15 && fabs(x[1] - 4. / 97) < 1e-15);
+    memset(b, 0, sizeof b);
+    assert_true(gm_gmres(&turning, b, x, 0, scratch, &iterations) && iterations == 2 && x[0] == 0);
+    b[0] = 1;
+    assert_false(gm_gmres(&turning, b, x, 1e-3, scratch, &iterations));
+    assert_true(iterations == 2 + GM_GMRES_BASIS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rings_are_solved),
         cmocka_unit_test(a_root_on_the_unit_circle),
+        cmocka_unit_test(roots_near_the_unit_circle),
+        cmocka_unit_test(rings_of_blocks_are_solved),
+        cmocka_unit_test(systems_are_solved_by_gmres),
+        cmocka_unit_test(transforms_of_fields),
         cmocka_unit_test(transforms_of_any_length),
         cmocka_unit_test(transforms_have_the_same_bits),
     };

@@ -530,6 +530,51 @@ static void pieces_follow_each_other(void **unused)
     }
 }
 
+/* The pieces of a side are counted from the lowest of the leftmost points, wherever the boundary's numbers begin: here at
+   the opposite corner, as the mesh is turned by half a turn. */
+static void pieces_begin_at_the_corner(void **unused)
+{
+    (void)unused;
+    struct gm_flow *flow = open_mesh(8, false, GM_STAR_AUTO);
+    const struct gm_complex *complex = flow->complex;
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    assert_non_null(side_of);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        complex->point[2 * v] = 1.5 - complex->point[2 * v];
+        complex->point[2 * v + 1] = 1 - complex->point[2 * v + 1];
+    }
+    const double *first = complex->point + 2 * complex->boundary_vertex[0];
+    assert_true(first[0] == 1.5 && first[1] == 1);
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                     *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)];
+        const bool low = p[1] == 0 && q[1] == 0 && fmin(p[0], q[0]) > 0.7,
+                   left = p[0] == 0 && q[0] == 0 && fmin(p[1], q[1]) > 0.45;
+        side_of[b] = p[0] == 1.5 && q[0] == 1.5 ? 2 : low || left ? 1 : 0;
+    }
+    const struct gm_side sides[3] = {
+        {.kind = GM_EDGE_WALL}, {.kind = GM_EDGE_INLET, .flow = 1}, {.kind = GM_EDGE_OUTLET, .flow = NAN}};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    free(side_of);
+    assert_int_equal(flow->openings, 3);
+    double lengths[2] = {0};
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        const bool low = complex->point[2 * complex->boundary_vertex[opening->first] + 1] == 0;
+        if (opening->inlet) {
+            lengths[low] = opening->length;
+        }
+    }
+    assert_true(lengths[0] > 0.4 && lengths[1] > 0.6);
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        const bool low = complex->point[2 * complex->boundary_vertex[opening->first] + 1] == 0;
+        assert_true(!opening->inlet || (opening->before == (low ? 0 : lengths[1]) &&
+                                        fabs(opening->side_length - lengths[0] - lengths[1]) < 1e-15));
+    }
+    gm_flow_close(flow);
+}
+
 /* Rectangles with openings: triangles of a grid [0, 3] x [0, 2], on which a wall stands along x = 3/2 but for a door
    from y = 2/3 to y = 4/3; all of them, or those of one half, shaken. `number`: of each vertex in the whole. */
 enum { DOOR_COLUMNS = 18, DOOR_ROWS = 12, DOOR_ACROSS = DOOR_COLUMNS + 1 };
@@ -1113,12 +1158,19 @@ int main(int count, char *words[])
 {
     const struct CMUnitTest published[] = {cmocka_unit_test(natural_convection)};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders),           cmocka_unit_test(circulation_is_found),
-        cmocka_unit_test(flows_are_shared), cmocka_unit_test(halves_make_a_whole),
-        cmocka_unit_test(budget_closes),    cmocka_unit_test(pressure_is_single_valued),
-        cmocka_unit_test(kelvin),           cmocka_unit_test(air_rises_at_a_hot_wall),
-        cmocka_unit_test(smoke_comes_in),   cmocka_unit_test(walls_give_heat),
-        cmocka_unit_test(layers_rest),      cmocka_unit_test(pieces_follow_each_other),
+        cmocka_unit_test(orders),
+        cmocka_unit_test(circulation_is_found),
+        cmocka_unit_test(flows_are_shared),
+        cmocka_unit_test(pieces_begin_at_the_corner),
+        cmocka_unit_test(halves_make_a_whole),
+        cmocka_unit_test(budget_closes),
+        cmocka_unit_test(pressure_is_single_valued),
+        cmocka_unit_test(kelvin),
+        cmocka_unit_test(air_rises_at_a_hot_wall),
+        cmocka_unit_test(smoke_comes_in),
+        cmocka_unit_test(walls_give_heat),
+        cmocka_unit_test(layers_rest),
+        cmocka_unit_test(pieces_follow_each_other),
         cmocka_unit_test(walls_vary),
     };
     return count > 1 && strcmp(words[1], "numbers") == 0 ? cmocka_run_group_tests(published, NULL, NULL)

@@ -47,6 +47,7 @@ static void linear_axes_have_round_values(void **state)
     assert_string_equal(labels(GM_LINEAR, 0.001, 0.0035, 6), "0.0010 0.0015 0.0020 0.0025 0.0030 0.0035");
     assert_string_equal(labels(GM_LINEAR, 0, 2e5, 6), "0 5×10⁴ 1.0×10⁵ 1.5×10⁵ 2.0×10⁵");
     assert_string_equal(labels(GM_LINEAR, -3e-6, 3e-6, 4), "−3×10⁻⁶ 0 3×10⁻⁶");
+    assert_string_equal(labels(GM_LINEAR, 1.7, 2.2, 1), "2"); /* where there is room for one alone */
 }
 
 /* Where an axis says where its ticks stand they do, as long as there are no more than have room. */

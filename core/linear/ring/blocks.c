@@ -138,7 +138,7 @@ bool gm_ring_blocks_make(struct gm_ring_blocks *blocks, size_t count, size_t n, 
         root->real = imaginary[k] == 0;
         const bool inside = gm_cabs(root->value) < 1;
         const double complex damped = inside ? root->value : gm_cdivide(1, root->value);
-        const double needed = -42 / gm_log(gm_cabs(damped)); /* e^-42 = 6e-19 */
+        const double needed = fabs(42 / gm_log(gm_cabs(damped))); /* e^-42 = 6e-19 */
         root->reach = needed < (double)count ? (size_t)needed + 1 : count;
         root->closed = root->reach == count ? gm_cdivide(1, 1 - gm_cpow(damped, (double)count)) : 1;
         if (!(gm_cabs(root->closed) < 1e4)) {

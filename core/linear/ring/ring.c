@@ -107,7 +107,7 @@ bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, dou
             return false;
         }
     }
-    return gm_cabs(ring->scale) > 0;
+    return true;
 }
 
 /* x := b + r x */
