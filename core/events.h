@@ -11,14 +11,18 @@
 
 struct gm_event_part;
 
+/* Where an event happens: at a 0 of g, which g passes, or to which it jumps; at each whole number of g; or, of a g that
+   changes only by jumps, at the jump to 0 or past it. */
+enum gm_event_form { GM_AT_ZERO, GM_AT_WHOLE, GM_AT_JUMP };
+
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
 struct gm_events {
-    size_t count, breaks;        /* the last of `count` are breaks, in runs that locate them */
-    const char *const *names;    /* [count]; "": none */
-    const char *const *surfaces; /* [breaks], the text of g */
-    const bool *whole;           /* [breaks]: it breaks at every whole number of g, else at 0 */
-    const bool *ends;            /* [count]: the event ends the run, and changes no state */
-    bool changes, ends_runs;     /* some event changes the state; some ends the run */
+    size_t count, breaks;            /* the last of `count` are breaks, in runs that locate them */
+    const char *const *names;        /* [count]; "": none */
+    const char *const *surfaces;     /* [breaks], the text of g */
+    const enum gm_event_form *forms; /* [count]; of breaks no jump */
+    const bool *ends;                /* [count]: the event ends the run, and changes no state */
+    bool changes, ends_runs;         /* some event changes the state; some ends the run */
     /* Writes g of all events for `looks` looks, with breaks in these modes: component c of the k-th is look[c * looks +
        k], g of event i values[i * looks + k]. NaN when out of memory. */
     void (*values)(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
@@ -61,8 +65,8 @@ struct gm_event_witness {
     void *data;
 };
 
-/* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not known), or
-   the mode of a break, which is that sign, or the whole number below g; how often each event happened; the jumps of the
+/* The memory of events in a run's block, all doubles: for each event its mode, the sign of g that it waits with (0: not
+   known, or none before g leaves 0), or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
 /* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
@@ -93,8 +97,8 @@ struct gm_event_step {
     struct gm_event_witness witness;
     bool parts;       /* some were made */
     double reached;   /* the time of the end */
-    size_t turned;    /* the break at which it ends; SIZE_MAX: none */
-    double turned_at; /* the value of its g there */
+    size_t turned;    /* the event or break at which it ends; SIZE_MAX: none */
+    double turned_at; /* the value of g there; the time of an event without a value */
 };
 enum gm_event_outcome {
     GM_EVENTS_NONE,
@@ -102,6 +106,7 @@ enum gm_event_outcome {
     GM_EVENTS_ENDED,
     GM_EVENTS_FAILED,
     GM_EVENTS_MANY,
+    GM_EVENTS_NO_VALUE,
     GM_EVENTS_SLIDE
 };
 
@@ -115,8 +120,8 @@ size_t gm_events_near(const struct gm_event_step *step, const double *values, si
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_SLIDE: after a break the rate
-   points back. */
+   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_NO_VALUE: an event changes
+   the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 
 /* The zero of a function along a step, from `low` to 1, between values of different sign there: the place just

@@ -204,6 +204,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
         return NULL;
     }
     head.motion = problem;
+    head.turned = SIZE_MAX;
     if (!open_workspace(&head)) {
         gm_memory_refused(); /* refused by a library, if not noted before */
         free(run);
@@ -420,11 +421,16 @@ static void pass_events(struct gm_run *run, double dt)
     enum gm_event_outcome outcome = gm_events_pass(&step);
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
+    run->turned = outcome > GM_EVENTS_FAILED ? step.turned : run->turned;
+    run->turned_at = step.turned_at;
     if (step.parts) {
         reset_workspace(run);
     }
-    if (outcome == GM_EVENTS_FAILED) {
-        run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
+    if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
+        run->status = refused                         ? GM_OUT_OF_MEMORY
+                      : outcome == GM_EVENTS_NO_VALUE ? GM_BLOW_UP
+                      : run->status == GM_OK          ? GM_NO_CONVERGENCE
+                                                      : run->status;
         run->current = before;
         run->n--;
         run->steps--;
@@ -438,8 +444,6 @@ static void pass_events(struct gm_run *run, double dt)
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
-        run->turned = step.turned;
-        run->turned_at = step.turned_at;
         run->t = run->t0 = step.reached;
         run->n = 0;
     }
@@ -750,7 +754,8 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
            isfinite(then->dt) && then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
            (then->stopped & ~1) == 0 &&
            (then->status != GM_SLIDING ||
-            (run->problem->events && then->turned < run->problem->events->breaks)) &&
+            (run->problem->events && then->turned < run->problem->events->count &&
+             then->turned >= run->problem->events->count - run->problem->events->breaks)) &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 

@@ -370,7 +370,20 @@ static void judge(struct gm_certificate *certificate, const struct gm_subject *s
     }
 }
 
-/* Notes what becomes of an invariant in 4000 steps, and judges the claims that concern it. */
+/* The sum of the jumps that events give an invariant. */
+struct jumps {
+    const struct gm_kept *kept;
+    double sum;
+};
+
+static void see_jump(void *data, const struct gm_event_part *part)
+{
+    struct jumps *jumps = data;
+    const struct gm_kept *kept = jumps->kept;
+    jumps->sum += kept->value(kept->data, part->after, NULL) - kept->value(kept->data, part->before, NULL);
+}
+
+/* Notes what becomes of an invariant in 4000 steps, beside the jumps of events, and judges the claims that concern it. */
 static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
                    const struct gm_kept *kept, unsigned claims)
 {
@@ -388,9 +401,11 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     if (!run) {
         return;
     }
+    struct jumps jumps = {kept, 0};
+    run->witness = (struct gm_event_witness){see_jump, &jumps};
     int look = 0;
     for (; look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
-        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0;
+        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0 - jumps.sum;
         struct quarter *now = &quarters[look / LOOKS];
         *now = look % LOOKS == 0 ? (struct quarter){change, change}
                                  : (struct quarter){fmin(now->low, change), fmax(now->high, change)};
@@ -570,8 +585,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     subject.start = start ? start : subject.start;
     subject.unit = fmax(subject.unit, subject.passed / 2);
     measure(certificate, &subject);
-    const struct gm_subject between = gm_subject_between_events(&subject);
-    follow_all(certificate, &between);
+    follow_all(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; doubts_order(certificate, scheme) && shorter < 4; shorter++) {
         subject.unit /= 8;

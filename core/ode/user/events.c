@@ -227,19 +227,17 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
 /* ---- opening ---- */
 
 /* Names the tapes of located breaks. */
-static void open_breaks(struct gm_user_data *self, const char **names)
+static void open_breaks(struct gm_user_data *self, const char **names, enum gm_event_form *forms)
 {
     const struct gm_user_frozen *frozen = self->model->frozen;
     const struct gm_formula *graph = &frozen->system.graph;
     const size_t first = self->model->event_count, inputs = frozen->system.variable_count;
     const char **surfaces = gm_arena_take(self->arena, frozen->count, sizeof *surfaces);
-    bool *whole = gm_arena_take(self->arena, frozen->count, sizeof *whole);
     self->events.surfaces = surfaces;
-    self->events.whole = whole;
     for (size_t i = 0; i < frozen->count; i++) {
         const struct gm_user_event *event = &frozen->events[i];
         names[first + i] = "";
-        whole[i] = frozen->list[i].whole;
+        forms[first + i] = frozen->list[i].whole ? GM_AT_WHOLE : GM_AT_ZERO;
         surfaces[i] = frozen->list[i].text;
         self->event_slopes[first + i] =
             (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, NULL, NULL};
@@ -262,6 +260,7 @@ void gm_user_events_open(struct gm_problem *problem)
     }
     const char **names = gm_arena_take(self->arena, count, sizeof *names);
     bool *ends = gm_arena_take(self->arena, count, sizeof *ends);
+    enum gm_event_form *forms = gm_arena_take(self->arena, count, sizeof *forms);
     gm_node_id *booked = gm_arena_take(self->arena, system->item_count + 1, sizeof *booked);
     size_t quantities = 0;
     self->changes = gm_arena_take(self->arena, count, sizeof *self->changes);
@@ -270,6 +269,7 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .breaks = breaks,
                                       .names = names,
                                       .ends = ends,
+                                      .forms = forms,
                                       .values = values,
                                       .happens = happens,
                                       .change = change,
@@ -278,12 +278,13 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .carry_within = carry_within,
                                       .conserved = conserved};
     if (breaks > 0) {
-        open_breaks(self, names);
+        open_breaks(self, names, forms);
     }
     for (size_t i = 0; i < written; i++) {
         const struct gm_user_event *event = &model->events[i];
         names[i] = event->item->name;
         ends[i] = event->item->ends;
+        forms[i] = event->form;
         self->events.ends_runs |= ends[i];
         self->events.changes |= !ends[i];
         gm_user_compile(self, &self->changes[i], event->nodes, event->conditions + event->changed, inputs);

@@ -68,6 +68,57 @@ static double *values_at(const struct failed *failed, const double *state, size_
     return values;
 }
 
+/* Writes the first part of a formula that is not finite; false without one. */
+static bool tell_root(const struct failed *failed, gm_node_id root, const double *values)
+{
+    size_t count = 0;
+    gm_node_id *parts = root != GM_NO_NODE && !isfinite(values[root])
+                            ? gm_formula_parts(&failed->scene->system.graph, root, &count)
+                            : NULL;
+    bool told = false;
+    for (size_t k = 0; parts && k < count && !told; k++) {
+        told = !isfinite(values[parts[k]]);
+        if (told) {
+            tell_node(failed, parts[k], values);
+        }
+    }
+    free(parts);
+    return told;
+}
+
+/* Writes the event that has led to a state that is not finite, with the part that is not finite before it, too, and its
+   place; false without one. */
+static bool tell_event(const struct failed *failed)
+{
+    const struct gm_user_system *system = &failed->scene->system;
+    const struct gm_run *run = failed->view->run;
+    const struct gm_events *events = failed->view->problem->events;
+    const struct gm_system_item *item = system->items;
+    if (!events || run->turned >= events->count - events->breaks) {
+        return false;
+    }
+    for (size_t passed = 0; passed <= run->turned; item++) {
+        passed += item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP;
+    }
+    item--;
+    double *values = values_at(failed, failed->view->state, 0);
+    bool told = false;
+    for (size_t c = 0; c < system->n && values && !told; c++) {
+        told = tell_root(failed, item->nodes[1 + c], values);
+    }
+    free(values);
+    char place[60] = "", part[GM_MESSAGE / 4] = "";
+    if (!system->typed) {
+        size_t line, column;
+        gm_text_place(system->source, item->place, &line, &column);
+        snprintf(place, sizeof place, " (line %zu, column %zu)", line, column);
+    }
+    snprintf(part, sizeof part, "%s%s", told ? ": " : "", failed->text);
+    snprintf(failed->text, failed->size, "the event%s%.40s at t = %.6g leads to no value%s%s",
+             item->name[0] ? " " : "", item->name, run->turned_at, place, part);
+    return true;
+}
+
 /* Writes the first part of H, else of a rate, that is not finite in a member's state; false without one. */
 static bool tell_part(const struct failed *failed, const double *state, size_t member)
 {
@@ -78,17 +129,7 @@ static bool tell_part(const struct failed *failed, const double *state, size_t m
         const gm_node_id root = i > 0                      ? system->rates[i - 1]
                                 : system->kind != GM_RATES ? system->energy
                                                            : GM_NO_NODE;
-        size_t count = 0;
-        gm_node_id *parts = root != GM_NO_NODE && !isfinite(values[root])
-                                ? gm_formula_parts(&system->graph, root, &count)
-                                : NULL;
-        for (size_t k = 0; parts && k < count && !told; k++) {
-            told = !isfinite(values[parts[k]]);
-            if (told) {
-                tell_node(failed, parts[k], values);
-            }
-        }
-        free(parts);
+        told = tell_root(failed, root, values);
     }
     free(values);
     return told;
@@ -255,7 +296,7 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     const size_t total = problem->n * problem->m;
     double *slope = malloc(3 * total * sizeof *slope);
     text[0] = '\0';
-    if (!slope || view->run->stopped) {
+    if (!slope || view->run->stopped || tell_event(&failed)) {
         tell_stop(&failed);
         free(slope);
         return;
