@@ -205,7 +205,7 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
 static void find_g(const struct gm_event_step *step, const double *look, double *g)
 {
     const double *modes = gm_events_modes(step->problem, step->memory);
-    step->problem->events->values(step->problem, modes, look, 1, g);
+    step->problem->events->values(step->problem, modes, look, g);
 }
 
 /* Lets breaks wait in a look, whose g depend on the modes of those before them; only those whose g is none of `before`, if
@@ -240,19 +240,19 @@ static bool crosses(double sign, double value)
     return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
-size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks)
+bool gm_events_near(const struct gm_event_step *step)
 {
     const struct gm_events *events = step->problem->events;
-    size_t first = looks;
+    double *look = step->scratch, *g = look + step->problem->n + 1;
+    look_at(step->problem, step->end_time, step->end, look);
+    find_g(step, look, g);
+    bool near = false;
     for (size_t i = 0; i < watched(step); i++) {
         const double sign = awaited(step, i);
-        for (size_t k = 0; k < first && (step->ends || !events->ends[i]); k++) {
-            const double g = values[i * looks + k];
-            const bool near = sign == 0 ? g != 0 : crosses(sign, watched_value(step, i, g));
-            first = near ? k : first;
-        }
+        near |= (step->ends || !events->ends[i]) &&
+                (sign == 0 ? g[i] != 0 : crosses(sign, watched_value(step, i, g[i])));
     }
-    return first;
+    return near;
 }
 
 /* ---- the events of a step ---- */
@@ -631,10 +631,10 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
                         .jumps = next + 3 * width + 5 * count,
                         .values = next + 3 * width + 6 * count};
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
-    find_values(&rest, step->end_time, step->end, rest.at_end);
-    if (gm_events_near(step, rest.at_end, 1) == 1) {
+    if (!gm_events_near(step)) {
         return GM_EVENTS_NONE;
     }
+    find_values(&rest, step->end_time, step->end, rest.at_end);
     find_values(&rest, step->t, step->begin, rest.at_begin);
     for (size_t i = 0; i < count; i++) {
         rest.sizes[i] = fabs(rest.at_begin[i]) + fabs(rest.at_end[i]);

@@ -23,10 +23,8 @@ struct gm_events {
     const enum gm_event_form *forms; /* [count]; of breaks no jump */
     const bool *ends;                /* [count]: the event ends the run, and changes no state */
     bool changes, ends_runs;         /* some event changes the state; some ends the run */
-    /* Writes g of all events for `looks` looks, with breaks in these modes: component c of the k-th is look[c * looks +
-       k], g of event i values[i * looks + k]. NaN when out of memory. */
-    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
-                   double *values);
+    /* Writes g of all events, with breaks in these modes. NaN when out of memory. */
+    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, double *values);
     /* Returns true if the conditions of an event hold. */
     bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
     /* Writes the n components after an event. */
@@ -114,9 +112,8 @@ size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
 /* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
    jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns the first of `looks` looks in which some event has not the sign that it waits with, or waits with none; `looks`:
-   none of them. Their values are those of gm_events. */
-size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks);
+/* Returns true if some event, at the end of a step, has not the sign that it waits with, or waits with none. */
+bool gm_events_near(const struct gm_event_step *step);
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at

@@ -12,38 +12,34 @@
 
 /* Evaluates a tape of the system with frozen switches, whose inputs are all variables; the modes are the last. */
 static void frozen_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
-                          const double *look, size_t looks, double *values)
+                          const double *look, double *values)
 {
     const struct gm_user_data *self = gm_user_data_of(problem);
     const size_t given = self->model->system->n + 1, own = self->model->system->variable_count;
-    double *inputs = malloc(tape->inputs * looks * sizeof *inputs);
-    for (size_t i = 0; i < tape->count * looks && !inputs; i++) {
+    double *inputs = malloc(tape->inputs * sizeof *inputs);
+    for (size_t i = 0; i < tape->count && !inputs; i++) {
         values[i] = NAN;
     }
-    for (size_t i = given; i < tape->inputs && inputs; i++) {
-        for (size_t k = 0; k < looks; k++) {
-            inputs[i * looks + k] = i < own ? self->values[i] : modes[i - own];
-        }
-    }
     if (inputs) {
-        memcpy(inputs, look, given * looks * sizeof *inputs);
-        gm_late_tape_values(tape, inputs, values, looks);
+        memcpy(inputs, look, given * sizeof *inputs);
+        memcpy(inputs + given, self->values + given, (own - given) * sizeof *inputs);
+        memcpy(inputs + own, modes, (tape->inputs - own) * sizeof *inputs);
+        gm_late_tape_values(tape, inputs, values, 1);
     }
     free(inputs);
 }
 
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
    components and the time. */
-static void values(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
-                   double *g)
+static void values(const struct gm_problem *problem, const double *modes, const double *look, double *g)
 {
     struct gm_user_data *self = gm_user_data_of(problem);
     const size_t count = self->model->event_count;
     if (count > 0) {
-        gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
+        gm_user_values(problem, GM_USER_SURFACES, look, g, 1);
     }
     if (self->events.breaks > 0) {
-        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, looks, g + count * looks);
+        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, g + count);
     }
 }
 
@@ -129,7 +125,7 @@ static bool open_saltation(const struct gm_problem *problem, const struct gm_pro
         gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
     } else {
         frozen_values(problem, &self->event_slopes[event],
-                      gm_user_data_of(motion)->values + self->model->system->variable_count, before, 1,
+                      gm_user_data_of(motion)->values + self->model->system->variable_count, before,
                       saltation->slopes);
     }
     field_at(motion, before, saltation->before);
