@@ -99,9 +99,9 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
     const double *counts = memory + counts_at(problem);
     double sum = 0;
     for (size_t i = 0; i < first_break(problem); i++) {
-        sum += i == event || event == problem->events->count ? counts[i] : 0;
+        sum += counts[i];
     }
-    return sum;
+    return event < problem->events->count ? counts[event] : sum;
 }
 
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
@@ -386,7 +386,7 @@ static double first_place(struct rest *rest)
         rest->jumps[i] = form_of(step, i) == GM_AT_ZERO && place > 0 && i < first_break(step->problem) &&
                          fabs(g) > NOTHING * rest->sizes[i];
         const bool happens =
-            place == 0 || (rest->jumps[i] == 0 && events->happens(step->problem, i, rest->look));
+            place == 0 || (rest->jumps[i] == 0 && events->change(step->problem, i, rest->look, NULL));
         rest->places[i] = place;
         first = happens ? fmin(first, place) : first;
     }
@@ -448,15 +448,6 @@ static void wait_after(struct rest *rest, size_t event, double place, double g)
     }
 }
 
-static bool is_finite(const double *look, size_t count)
-{
-    bool finite = true;
-    for (size_t c = 0; c < count; c++) {
-        finite &= isfinite(look[c]) != 0;
-    }
-    return finite;
-}
-
 /* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state.
    Returns GM_EVENTS_HAPPENED; GM_EVENTS_FAILED if the scheme cannot start from there. */
 static enum gm_event_outcome change(struct rest *rest, double t, size_t event, bool changed)
@@ -478,7 +469,11 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event, b
     } else {
         events->change(problem, event, rest->before, rest->to);
         look_at(problem, t, rest->to, rest->after);
-        if (!is_finite(rest->after, problem->n)) {
+        double nothing = 0; /* times a number that is not finite: not a number */
+        for (size_t c = 0; c < problem->n; c++) {
+            nothing += 0 * rest->after[c];
+        }
+        if (isnan(nothing)) {
             step->turned = event;
             step->turned_at = t;
             return GM_EVENTS_NO_VALUE;
@@ -489,8 +484,8 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event, b
             return GM_EVENTS_FAILED;
         }
         find_g(step, rest->after, after);
-        step->memory[counts_at(problem) + event]++;
     }
+    step->memory[counts_at(problem) + event]++;
     for (size_t i = 0; i < first_break(problem) && !turns; i++) {
         /* a g that jumps is not 0 just beyond */
         const double size = rest->sizes[i], g = rest->values[i], off = is_whole(step, i) ? g - round(g) : g;
@@ -562,7 +557,7 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         }
         look_at(step->problem, t, rest->to, rest->look);
         if (rest->places[i] < place - together || rest->jumps[i] != 0 ||
-            !events->happens(step->problem, i, rest->look)) {
+            !events->change(step->problem, i, rest->look, NULL)) {
             find_g(step, rest->look, rest->values); /* passed without its conditions, or by a jump */
             step->memory[i] =
                 rest->places[i] <= place ? mode_beyond(step, i, rest->values[i]) : step->memory[i];

@@ -25,10 +25,8 @@ struct gm_events {
     bool changes, ends_runs;         /* some event changes the state; some ends the run */
     /* Writes g of all events, with breaks in these modes. NaN when out of memory. */
     void (*values)(const struct gm_problem *problem, const double *modes, const double *look, double *values);
-    /* Returns true if the conditions of an event hold. */
-    bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
-    /* Writes the n components after an event. */
-    void (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
+    /* Returns true if the conditions of an event hold. Writes the n components after it, unless y is NULL. */
+    bool (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
     /* Returns dg/dt along a motion, of the problem or with frozen switches. */
     double (*rate)(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
                    const double *look);
@@ -67,7 +65,7 @@ struct gm_event_witness {
    known, or none before g leaves 0), or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
-/* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
+/* The number of times that an event or break happened; for number `count`, all events but breaks. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);

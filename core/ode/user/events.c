@@ -50,24 +50,26 @@ static const struct gm_user_event *event_of(const struct gm_problem *problem, si
                                       : &model->frozen->events[event - model->event_count];
 }
 
-/* Writes the conditions and the new values; NULL when out of memory, which is noted. The caller frees. */
-static double *outcome_of(const struct gm_problem *problem, size_t event, const double *look)
+/* gm_events.change */
+static bool change(const struct gm_problem *problem, size_t event, const double *look, double *y)
 {
-    struct gm_late_tape *tape = &gm_user_data_of(problem)->changes[event];
-    double *outcome = malloc((tape->count + 1) * sizeof *outcome);
+    struct gm_user_data *self = gm_user_data_of(problem);
+    const struct gm_user_event *formulas = event_of(problem, event);
+    struct gm_late_tape *tape = &self->changes[event];
+    const bool breaks = event >= self->model->event_count;
+    double *outcome = breaks ? NULL : malloc((tape->count + 1) * sizeof *outcome);
     if (outcome && tape->count > 0) {
         gm_late_tape_values(tape, look, outcome, 1);
     }
-    return outcome;
-}
-
-static bool happens(const struct gm_problem *problem, size_t event, const double *look)
-{
-    const bool changes = event < gm_user_data_of(problem)->model->event_count;
-    double *outcome = changes ? outcome_of(problem, event, look) : NULL;
-    bool all = outcome || !changes;
-    for (size_t i = 0; all && i < event_of(problem, event)->conditions; i++) {
+    bool all = outcome || breaks;
+    for (size_t i = 0; i < formulas->conditions && all; i++) {
         all = outcome[i] > 0;
+    }
+    for (size_t c = 0; c < problem->n && y; c++) {
+        y[c] = look[c];
+    }
+    for (size_t i = 0; i < formulas->changed && y; i++) {
+        y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
     }
     free(outcome);
     return all;
@@ -197,17 +199,6 @@ static void carry_within(const struct gm_problem *problem, const struct gm_event
     }
 }
 
-static void change(const struct gm_problem *problem, size_t event, const double *look, double *y)
-{
-    const struct gm_user_event *formulas = event_of(problem, event);
-    double *outcome = outcome_of(problem, event, look);
-    memcpy(y, look, problem->n * sizeof *y);
-    for (size_t i = 0; i < formulas->changed; i++) {
-        y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
-    }
-    free(outcome);
-}
-
 static void conserved(const struct gm_problem *problem, const double *look, double *quantities)
 {
     const struct gm_user_data *self = gm_user_data_of(problem);
@@ -267,7 +258,6 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .ends = ends,
                                       .forms = forms,
                                       .values = values,
-                                      .happens = happens,
                                       .change = change,
                                       .rate = rate,
                                       .carry = carry,

@@ -168,28 +168,21 @@ static void open_one_form(struct gm_arena *arena, const struct opening *opening)
 }
 
 /* Returns g of an event. mod(a, b) = h, if h does not change, happens where (a - h)/b is a whole number. */
-static gm_node_id surface_of(struct gm_user_system *system, const struct gm_system_item *item,
-                             const bool *marked, enum gm_event_form *form)
+static gm_node_id surface_of(struct gm_user_system *system, gm_node_id g, const bool *marked,
+                             enum gm_event_form *form)
 {
     struct gm_formula *graph = &system->graph;
-    gm_node_id g = item->nodes[0], h = gm_formula_constant(graph, 0);
-    struct gm_node node = graph->nodes[g];
-    while (node.operation == GM_OPERATION_SUBTRACT) {
-        const bool left = gm_formula_holds(graph, node.a, marked, system->variable_count);
-        if (left && gm_formula_holds(graph, node.b, marked, system->variable_count)) {
-            return item->nodes[0];
-        }
-        h = left ? gm_formula_apply(graph, GM_OPERATION_ADD, h, node.b)
-                 : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, node.a, h);
-        g = left ? node.a : node.b;
-        node = graph->nodes[g];
-    }
-    if (node.operation != GM_OPERATION_MOD) {
-        return item->nodes[0];
+    const struct gm_node node = graph->nodes[g];
+    const bool differs = node.operation == GM_OPERATION_SUBTRACT &&
+                         !gm_formula_holds(graph, node.b, marked, system->variable_count);
+    const struct gm_node mod = graph->nodes[differs ? node.a : g];
+    if (mod.operation != GM_OPERATION_MOD) {
+        return g;
     }
     *form = GM_AT_WHOLE;
     return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
-                            gm_formula_apply(graph, GM_OPERATION_SUBTRACT, node.a, h), node.b);
+                            differs ? gm_formula_apply(graph, GM_OPERATION_SUBTRACT, mod.a, node.b) : mod.a,
+                            mod.b);
 }
 
 /* Returns true if a function with these slopes, row 0, changes only by jumps: of itself, or of components without a
@@ -218,7 +211,7 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->form = GM_AT_ZERO;
     event->conditions = item->count - first;
     event->components = gm_arena_take(arena, n + 1, sizeof *event->components);
-    nodes[0] = surface_of(system, item, marked, &event->form);
+    nodes[0] = surface_of(system, item->nodes[0], marked, &event->form);
     for (size_t c = 0; c < n && !item->ends; c++) {
         const struct gm_node *node = &system->graph.nodes[item->nodes[1 + c]];
         if (node->operation != GM_VARIABLE || node->a != c) {

@@ -68,57 +68,6 @@ static double *values_at(const struct failed *failed, const double *state, size_
     return values;
 }
 
-/* Writes the first part of a formula that is not finite; false without one. */
-static bool tell_root(const struct failed *failed, gm_node_id root, const double *values)
-{
-    size_t count = 0;
-    gm_node_id *parts = root != GM_NO_NODE && !isfinite(values[root])
-                            ? gm_formula_parts(&failed->scene->system.graph, root, &count)
-                            : NULL;
-    bool told = false;
-    for (size_t k = 0; parts && k < count && !told; k++) {
-        told = !isfinite(values[parts[k]]);
-        if (told) {
-            tell_node(failed, parts[k], values);
-        }
-    }
-    free(parts);
-    return told;
-}
-
-/* Writes the event that has led to a state that is not finite, with the part that is not finite before it, too, and its
-   place; false without one. */
-static bool tell_event(const struct failed *failed)
-{
-    const struct gm_user_system *system = &failed->scene->system;
-    const struct gm_run *run = failed->view->run;
-    const struct gm_events *events = failed->view->problem->events;
-    const struct gm_system_item *item = system->items;
-    if (!events || run->turned >= events->count - events->breaks) {
-        return false;
-    }
-    for (size_t passed = 0; passed <= run->turned; item++) {
-        passed += item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP;
-    }
-    item--;
-    double *values = values_at(failed, failed->view->state, 0);
-    bool told = false;
-    for (size_t c = 0; c < system->n && values && !told; c++) {
-        told = tell_root(failed, item->nodes[1 + c], values);
-    }
-    free(values);
-    char place[60] = "", part[GM_MESSAGE / 4] = "";
-    if (!system->typed) {
-        size_t line, column;
-        gm_text_place(system->source, item->place, &line, &column);
-        snprintf(place, sizeof place, " (line %zu, column %zu)", line, column);
-    }
-    snprintf(part, sizeof part, "%s%s", told ? ": " : "", failed->text);
-    snprintf(failed->text, failed->size, "the event%s%.40s at t = %.6g leads to no value%s%s",
-             item->name[0] ? " " : "", item->name, run->turned_at, place, part);
-    return true;
-}
-
 /* Writes the first part of H, else of a rate, that is not finite in a member's state; false without one. */
 static bool tell_part(const struct failed *failed, const double *state, size_t member)
 {
@@ -129,7 +78,17 @@ static bool tell_part(const struct failed *failed, const double *state, size_t m
         const gm_node_id root = i > 0                      ? system->rates[i - 1]
                                 : system->kind != GM_RATES ? system->energy
                                                            : GM_NO_NODE;
-        told = tell_root(failed, root, values);
+        size_t count = 0;
+        gm_node_id *parts = root != GM_NO_NODE && !isfinite(values[root])
+                                ? gm_formula_parts(&system->graph, root, &count)
+                                : NULL;
+        for (size_t k = 0; parts && k < count && !told; k++) {
+            told = !isfinite(values[parts[k]]);
+            if (told) {
+                tell_node(failed, parts[k], values);
+            }
+        }
+        free(parts);
     }
     free(values);
     return told;
@@ -220,6 +179,31 @@ static void tell_monitor(const struct failed *failed, const double *slope, doubl
                  "the monitor, the density of steps, is %.3g, and %.3g where the step leads", found[0],
                  found[1]);
     }
+}
+
+/* Writes the event whose change has no value, with its place; false without one. */
+static bool tell_event(const struct failed *failed)
+{
+    const struct gm_user_system *system = &failed->scene->system;
+    const struct gm_run *run = failed->view->run;
+    const struct gm_events *events = failed->view->problem->events;
+    const struct gm_system_item *item = system->items;
+    size_t line, column;
+    if (!events || run->turned >= events->count - events->breaks) {
+        return false;
+    }
+    for (size_t passed = 0; passed <= run->turned; item++) {
+        passed += item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP;
+    }
+    item--;
+    snprintf(failed->text, failed->size, "the event %.40s%sat t = %.6g has no value", item->name,
+             item->name[0] ? " " : "", run->turned_at);
+    if (!system->typed) {
+        const size_t length = strlen(failed->text);
+        gm_text_place(system->source, item->place, &line, &column);
+        snprintf(failed->text + length, failed->size - length, " (line %zu, column %zu)", line, column);
+    }
+    return true;
 }
 
 /* Writes if the energy at rest, which decides the step size, is not negative. */
