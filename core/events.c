@@ -268,7 +268,7 @@ struct rest {
     double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
     double *modes;                      /* of breaks before a change */
     double *sizes;                      /* of the g of all events, at both ends of the step */
-    double *jumps;                      /* 1: g jumps past 0 there, which is no event */
+    double *jumps;                      /* 1: g jumps past 0 there, which is not an event */
     double *
         places; /* for each event the fraction of `rest` where it happens; NaN: it does not; infinite: it has */
 };
@@ -384,7 +384,7 @@ static double first_place(struct rest *rest)
             continue;
         }
         rest->jumps[i] = form_of(step, i) == GM_AT_ZERO && place > 0 && i < first_break(step->problem) &&
-                         fabs(g) > NOTHING * rest->sizes[i];
+                         (isinf(rest->sizes[i]) || fabs(g) > NOTHING * rest->sizes[i]);
         const bool happens =
             place == 0 || (rest->jumps[i] == 0 && events->change(step->problem, i, rest->look, NULL));
         rest->places[i] = place;
@@ -406,23 +406,11 @@ static void book(struct rest *rest)
     if (events->quantities == 0) {
         return;
     }
+    double *after = values + events->quantities;
     events->conserved(problem, rest->before, values);
+    events->conserved(problem, rest->after, after);
     for (size_t i = 0; i < events->quantities; i++) {
-        booked[i] -= values[i];
-    }
-    events->conserved(problem, rest->after, values);
-    for (size_t i = 0; i < events->quantities; i++) {
-        booked[i] += values[i];
-    }
-}
-
-/* Turns a break where its g is; where an event has changed the state too, to the side where the motion leads. */
-static void turn(const struct gm_event_step *step, size_t event, const double *look, double g, bool changed)
-{
-    if (!changed) {
-        step->memory[event] = mode_beyond(step, event, g);
-    } else {
-        wait_ahead(step, event, look, is_whole(step, event) ? round(g) : 0, 0);
+        booked[i] += after[i] - values[i];
     }
 }
 
@@ -465,11 +453,15 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event, b
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        turn(step, event, rest->before, rest->values[event], changed);
+        const double g = rest->values[event];
+        step->memory[event] = mode_beyond(step, event, g);
+        if (changed) { /* to the side where the motion leads */
+            wait_ahead(step, event, rest->before, is_whole(step, event) ? round(g) : 0, 0);
+        }
     } else {
         events->change(problem, event, rest->before, rest->to);
         look_at(problem, t, rest->to, rest->after);
-        double nothing = 0; /* times a number that is not finite: not a number */
+        double nothing = 0; /* 0 times a value that is not finite is NaN */
         for (size_t c = 0; c < problem->n; c++) {
             nothing += 0 * rest->after[c];
         }

@@ -460,13 +460,19 @@ static void make_steps_before_events(struct gm_run *run, int64_t steps)
         return;
     }
     gm_loop *loop = gm_scheme_loop(run->scheme, run->motion);
+    struct gm_event_step step = event_step(run);
+    struct gm_task tasks[2]; /* from each half of the block to the other */
+    for (int from = 0; from < 2; from++) {
+        tasks[from] = part_of(run, half(run, from), run->t, run->dt, half(run, 1 - from));
+    }
     for (int64_t made = 0; made < steps; made++) {
-        struct gm_event_step step = event_step(run);
-        step.end = half(run, 1 - run->current);
+        struct gm_task *task = &tasks[run->current];
+        task->t = task->t0 = run->t;
+        task->steps_before = run->steps;
+        step.memory = events_of(run, run->current);
+        step.end = task->out;
         step.end_time = run->t0 + (double)(run->n + 1) * run->dt;
-        struct gm_task task = part_of(run, step.begin, run->t, run->dt, step.end);
-        task.steps_before = run->steps;
-        const struct gm_progress progress = loop(&task);
+        const struct gm_progress progress = loop(task);
         run->behind = 0;
         if (progress.done < 1 || gm_events_near(&step) || gm_memory_refusals() != refusals) {
             reset_workspace(run);

@@ -874,12 +874,12 @@ done
 printf '%s\n' 4,4,4,4:'mod(t, 1) = 0' 4,4,4,4:'mod(t, 1) - 1/2 = 0' 4,4,4,4:'mod(x, 1) = h' 1,1,1,1:'floor(t) = 3' \
     1,1,1,1:'3 = floor(x)' 1,1,1,1:'floor(t) = 5/2' 1,1,1,1:'ceil(t) = 3' 1,1,1,1:'sign(x - 2) = 0' \
     1,1,1,1:'if(t > 2, 1, -1) = 0' 1,1,1,1:'if(t > 2, x - 2, -1) = 0' 1,1,1,1:'if(x > 1.95, x - 4, 3 - x) = 0' \
-    1,1,1,1:'tan(t) = 0' 0,0,0,0:'abs(x) = 0' 0,0,0,0:'if(x > 1, -x, x) = 0' >jumps
+    1,1,1,1:'tan(t) = 0' 0,0,0,0:'1/(t - 2) = 0' 0,0,0,0:'abs(x) = 0' 0,0,0,0:'if(x > 1, -x, x) = 0' >jumps
 while IFS=: read -r counts event; do
     found=
+    printf 'parameter: h = 1/4\nrate: x = 1, n = 0\nevent: %s; n = n + 1\nstart: x = 0, n = 0\n' "$event" >jump.system
     for dt in 0.1 0.25 1 2.125; do
-        found=$found,$("$geomint" run system parameter='h = 1/4' rate='x = 1, n = 0' event="$event; n = n + 1" x=0 n=0 \
-            dt=$dt until=4.25 scheme=rk4 | sed -n 's/^ *events  *//p')
+        found=$found,$("$geomint" run jump.system dt=$dt until=4.25 scheme=rk4 | sed -n 's/^ *events  *//p')
     done
     [ "$found" = ",$counts" ] || fail "$event happens $found times"
 done <jumps

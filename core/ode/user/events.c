@@ -14,9 +14,10 @@
 static void frozen_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
                           const double *look, double *values)
 {
+    enum { FEW = 256 }; /* more inputs are allocated */
     const struct gm_user_data *self = gm_user_data_of(problem);
     const size_t given = self->model->system->n + 1, own = self->model->system->variable_count;
-    double *inputs = malloc(tape->inputs * sizeof *inputs);
+    double few[FEW], *inputs = tape->inputs <= FEW ? few : malloc(tape->inputs * sizeof *inputs);
     for (size_t i = 0; i < tape->count && !inputs; i++) {
         values[i] = NAN;
     }
@@ -26,7 +27,7 @@ static void frozen_values(const struct gm_problem *problem, struct gm_late_tape 
         memcpy(inputs + own, modes, (tape->inputs - own) * sizeof *inputs);
         gm_late_tape_values(tape, inputs, values, 1);
     }
-    free(inputs);
+    free(inputs == few ? NULL : inputs);
 }
 
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's

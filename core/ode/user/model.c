@@ -185,7 +185,7 @@ static gm_node_id surface_of(struct gm_user_system *system, gm_node_id g, const 
                             mod.b);
 }
 
-/* Returns true if a function with these slopes, row 0, changes only by jumps: of itself, or of components without a
+/* Returns true if a function with these slopes, row 0, changes only by jumps, its own ones or those of components without a
    rate at events. */
 static bool only_jumps(const struct gm_user_system *system, const struct gm_sparse *slopes)
 {
