@@ -871,15 +871,16 @@ for scheme in avf2 'projected(rk4; invariants: H)'; do
     grep -q 'in 4000 steps H .*e-1[5-9] in [0-9]* steps, then events-accumulate' out || fail "$scheme at bounces: $(cat out)"
 done
 # a jump past a value does not reach it, unless the formula only jumps; mod reaches each of its values once a period
-printf '%s\n' 4,4,4,4:'mod(t, 1) = 0' 4,4,4,4:'mod(t, 1) - 1/2 = 0' 4,4,4,4:'mod(x, 1) = h' 1,1,1,1:'floor(t) = 3' \
+printf '%s\n' 4,4,4,4:'mod(t, 1) = 0' 4,4,4,4:'mod(t, 1) - 1/2 = 0' 5,5,5,5:'mod(x, 1) = h' 1,1,1,1:'floor(t) = 3' \
     1,1,1,1:'3 = floor(x)' 1,1,1,1:'floor(t) = 5/2' 1,1,1,1:'ceil(t) = 3' 1,1,1,1:'sign(x - 2) = 0' \
     1,1,1,1:'if(t > 2, 1, -1) = 0' 1,1,1,1:'if(t > 2, x - 2, -1) = 0' 1,1,1,1:'if(x > 1.95, x - 4, 3 - x) = 0' \
     1,1,1,1:'tan(t) = 0' 0,0,0,0:'1/(t - 2) = 0' 0,0,0,0:'abs(x) = 0' 0,0,0,0:'if(x > 1, -x, x) = 0' >jumps
 while IFS=: read -r counts event; do
     found=
-    printf 'parameter: h = 1/4\nrate: x = 1, n = 0\nevent: %s; n = n + 1\nstart: x = 0, n = 0\n' "$event" >jump.system
+    printf 'parameter: h = 1/8\nrate: x = 1, n = 0\nevent: %s; n = n + 1\nstart: x = 0, n = 0\n' "$event" >jump.system
     for dt in 0.1 0.25 1 2.125; do
-        found=$found,$("$geomint" run jump.system dt=$dt until=4.25 scheme=rk4 | sed -n 's/^ *events  *//p')
+        "$geomint" run jump.system dt=$dt until=4.25 scheme=rk4 >out || fail "$event ends the run: $(cat out)"
+        found=$found,$(sed -n 's/^ *events  *//p' out)
     done
     [ "$found" = ",$counts" ] || fail "$event happens $found times"
 done <jumps
