@@ -54,7 +54,7 @@ struct gm_user_bracket {
 struct gm_user_event {
     const struct gm_system_item *item;
     enum gm_event_form form;
-    gm_node_id surface; /* g */
+    gm_node_id surface;         /* g */
     size_t conditions, changed; /* numbers of these */
     size_t *components;         /* [changed] */
     gm_node_id *nodes;          /* conditions, then new values of these components */
