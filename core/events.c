@@ -2,6 +2,7 @@
 /* The zero of a function along a step, and the events of a step one after the other. */
 #include "core/events.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -98,9 +99,9 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
     const double *counts = memory + counts_at(problem);
     double sum = 0;
     for (size_t i = 0; i < first_break(problem); i++) {
-        sum += i == event || event == problem->events->count ? counts[i] : 0;
+        sum += counts[i];
     }
-    return sum;
+    return event < problem->events->count ? counts[event] : sum;
 }
 
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
@@ -133,19 +134,39 @@ static double sign_of_rate(const struct gm_event_step *step, size_t event, const
     return step->dt < 0 ? -sign : sign;
 }
 
-/* Breaks at the whole numbers of g are breaks at 0 of (g - k)(k + 1 - g), which is above 0 until g leaves its interval at
-   either end. */
-static bool is_whole(const struct gm_event_step *step, size_t event)
+static enum gm_event_form form_of(const struct gm_event_step *step, size_t event)
 {
-    const size_t first = first_break(step->problem);
-    return event >= first && step->problem->events->whole[event - first];
+    return step->problem->events->forms[event];
 }
 
-/* The value whose sign changes, from that of g. */
+static bool is_whole(const struct gm_event_step *step, size_t event)
+{
+    return form_of(step, event) == GM_AT_WHOLE;
+}
+
+/* The value whose sign changes, from that of g. Whole numbers of g are zeros of (g - k)(k + 1 - g), which is above 0 until
+   g leaves its interval at either end. A g that jumps to 0 is there. */
 static double watched_value(const struct gm_event_step *step, size_t event, double g)
 {
     const double k = step->memory[event];
-    return is_whole(step, event) ? (g - k) * (k + 1 - g) : g;
+    return is_whole(step, event)                ? (g == k + 1 ? -DBL_MIN : (g - k) * (k + 1 - g))
+           : form_of(step, event) == GM_AT_JUMP ? (k * g > 0 ? k : -k)
+                                                : g;
+}
+
+/* The mode on the side where g is. */
+static double mode_at(const struct gm_event_step *step, size_t event, double g)
+{
+    return is_whole(step, event) ? floor(g) : sign_of(g);
+}
+
+/* The mode after g, which is now this, has passed. */
+static double mode_beyond(const struct gm_event_step *step, size_t event, double g)
+{
+    const double mode = step->memory[event];
+    return is_whole(step, event)                ? mode + (g - mode < 0.5 ? -1 : 1)
+           : form_of(step, event) == GM_AT_JUMP ? sign_of(g)
+                                                : -mode;
 }
 
 /* The sign with which an event waits. */
@@ -155,17 +176,20 @@ static double awaited(const struct gm_event_step *step, size_t event)
 }
 
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
-   the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground. At a
-   break it leads to a side that it does not leave at once. */
+   the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground; a g that
+   jumped there first leaves it. At a break it leads to a side that it does not leave at once. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
     double *memory = &step->memory[event];
     if (is_whole(step, event)) {
-        *memory = floor(g);
-        *memory -= *memory == g && sign_of_rate(step, event, look) < 0;
+        const double nearest = round(g), at = fabs(g - nearest) <= nothing ? nearest : g;
+        *memory = floor(at);
+        *memory -= *memory == at && sign_of_rate(step, event, look) < 0;
     } else if (fabs(g) > nothing) {
         *memory = sign_of(g);
+    } else if (form_of(step, event) == GM_AT_JUMP) {
+        *memory = 0;
     } else if (event < first_break(step->problem)) {
         const double ahead = sign_of_rate(step, event, look);
         *memory = ahead != 0 ? ahead : sign_of(*memory) * AT_REST;
@@ -181,7 +205,7 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
 static void find_g(const struct gm_event_step *step, const double *look, double *g)
 {
     const double *modes = gm_events_modes(step->problem, step->memory);
-    step->problem->events->values(step->problem, modes, look, 1, g);
+    step->problem->events->values(step->problem, modes, look, g);
 }
 
 /* Lets breaks wait in a look, whose g depend on the modes of those before them; only those whose g is none of `before`, if
@@ -216,18 +240,19 @@ static bool crosses(double sign, double value)
     return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
-size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks)
+bool gm_events_near(const struct gm_event_step *step)
 {
     const struct gm_events *events = step->problem->events;
-    size_t first = looks;
+    double *look = step->scratch, *g = look + step->problem->n + 1;
+    look_at(step->problem, step->end_time, step->end, look);
+    find_g(step, look, g);
+    bool near = false;
     for (size_t i = 0; i < watched(step); i++) {
         const double sign = awaited(step, i);
-        for (size_t k = 0; k < first && (step->ends || !events->ends[i]); k++) {
-            const bool near = sign == 0 || crosses(sign, watched_value(step, i, values[i * looks + k]));
-            first = near ? k : first;
-        }
+        near |= (step->ends || !events->ends[i]) &&
+                (sign == 0 ? g[i] != 0 : crosses(sign, watched_value(step, i, g[i])));
     }
-    return first;
+    return near;
 }
 
 /* ---- the events of a step ---- */
@@ -242,7 +267,10 @@ struct rest {
     double *look, *before, *after;      /* looks */
     double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
     double *modes;                      /* of breaks before a change */
-    double *places; /* for each event the fraction of `rest` where it happens; NaN: it does not */
+    double *sizes;                      /* of the g of all events, at both ends of the step */
+    double *jumps;                      /* 1: g jumps past 0 there, which is not an event */
+    double *
+        places; /* for each event the fraction of `rest` where it happens; NaN: it does not; infinite: it has */
 };
 
 /* Writes the g of all events. */
@@ -325,6 +353,9 @@ static bool take_sides(struct rest *rest)
     return !taken || make_rest(rest);
 }
 
+/* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
+static const double NOTHING = 1e-6;
+
 /* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
    infinity: nothing happens, and all wait with the signs at the end; NaN: it cannot be found. */
 static double first_place(struct rest *rest)
@@ -346,17 +377,22 @@ static double first_place(struct rest *rest)
         if (isnan(place) || !make_part(rest, place, false)) {
             return NAN;
         }
+        find_values(rest, rest->at, rest->to, rest->values);
+        const double g = rest->values[i];
         if (step->first && rest->t == step->t && place < least && i < first_break(step->problem)) {
-            signs[i] = -signs[i];
+            signs[i] = mode_beyond(step, i, g);
             continue;
         }
-        look_at(step->problem, rest->at, rest->to, rest->look);
-        const bool happens = place == 0 || events->happens(step->problem, i, rest->look);
+        rest->jumps[i] = form_of(step, i) == GM_AT_ZERO && place > 0 && i < first_break(step->problem) &&
+                         (isinf(rest->sizes[i]) || fabs(g) > NOTHING * rest->sizes[i]);
+        const bool happens =
+            place == 0 || (rest->jumps[i] == 0 && events->change(step->problem, i, rest->look, NULL));
         rest->places[i] = place;
         first = happens ? fmin(first, place) : first;
     }
     for (size_t i = 0; i < watched(step) && first > 1; i++) {
-        signs[i] = awaited(step, i) == 0 || !isnan(rest->places[i]) ? sign_of(rest->at_end[i]) : signs[i];
+        const bool moves = awaited(step, i) == 0 || !isnan(rest->places[i]);
+        signs[i] = moves ? mode_at(step, i, rest->at_end[i]) : signs[i];
     }
     return first;
 }
@@ -370,24 +406,11 @@ static void book(struct rest *rest)
     if (events->quantities == 0) {
         return;
     }
+    double *after = values + events->quantities;
     events->conserved(problem, rest->before, values);
+    events->conserved(problem, rest->after, after);
     for (size_t i = 0; i < events->quantities; i++) {
-        booked[i] -= values[i];
-    }
-    events->conserved(problem, rest->after, values);
-    for (size_t i = 0; i < events->quantities; i++) {
-        booked[i] += values[i];
-    }
-}
-
-/* Turns a break where its g is; where an event has changed the state too, to the side where the motion leads. */
-static void turn(const struct gm_event_step *step, size_t event, const double *look, double g, bool changed)
-{
-    double *mode = &step->memory[event];
-    if (!changed) {
-        *mode = is_whole(step, event) ? *mode + (g - *mode < 0.5 ? -1 : 1) : -*mode;
-    } else {
-        wait_ahead(step, event, look, is_whole(step, event) ? round(g) : 0, 0);
+        booked[i] += after[i] - values[i];
     }
 }
 
@@ -397,14 +420,30 @@ static double away(const struct gm_event_step *step, size_t event, double g)
     return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
 }
 
+/* Lets another event wait in the state after a change. A g that only jumps has now reached 0, or passed it: the event
+   happens at once, unless it has. */
+static void wait_after(struct rest *rest, size_t event, double place, double g)
+{
+    const struct gm_event_step *step = rest->step;
+    const bool happens = form_of(step, event) == GM_AT_JUMP && !isinf(rest->places[event]) &&
+                         (step->ends || !step->problem->events->ends[event]) &&
+                         crosses(awaited(step, event), watched_value(step, event, g));
+    if (happens) {
+        rest->places[event] = place;
+        rest->jumps[event] = 0;
+    } else {
+        wait_ahead(step, event, rest->after, g, 0);
+    }
+}
+
 /* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state.
-   Returns false if the scheme cannot start from there. */
-static bool change(struct rest *rest, double t, size_t event, bool changed)
+   Returns GM_EVENTS_HAPPENED; GM_EVENTS_FAILED if the scheme cannot start from there. */
+static enum gm_event_outcome change(struct rest *rest, double t, size_t event, bool changed)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
     const struct gm_events *events = problem->events;
-    const double roundoff = 1e-12;
+    const double roundoff = 1e-12, place = rest->places[event];
     const bool turns = event >= first_break(problem);
     double *after = rest->values + events->count;
     const double *modes = gm_events_modes(problem, step->memory);
@@ -414,23 +453,38 @@ static bool change(struct rest *rest, double t, size_t event, bool changed)
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        turn(step, event, rest->before, rest->values[event], changed);
+        const double g = rest->values[event];
+        step->memory[event] = mode_beyond(step, event, g);
+        if (changed) { /* to the side where the motion leads */
+            wait_ahead(step, event, rest->before, is_whole(step, event) ? round(g) : 0, 0);
+        }
     } else {
         events->change(problem, event, rest->before, rest->to);
+        look_at(problem, t, rest->to, rest->after);
+        double nothing = 0; /* 0 times a value that is not finite is NaN */
+        for (size_t c = 0; c < problem->n; c++) {
+            nothing += 0 * rest->after[c];
+        }
+        if (isnan(nothing)) {
+            step->turned = event;
+            step->turned_at = t;
+            return GM_EVENTS_NO_VALUE;
+        }
+        rest->places[event] = INFINITY;
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
         if (!step->restart(step->data, t, rest->to)) {
-            return false;
+            return GM_EVENTS_FAILED;
         }
-        look_at(problem, t, rest->to, rest->after);
         find_g(step, rest->after, after);
-        step->memory[counts_at(problem) + event]++;
     }
+    step->memory[counts_at(problem) + event]++;
     for (size_t i = 0; i < first_break(problem) && !turns; i++) {
         /* a g that jumps is not 0 just beyond */
-        const double size = fabs(rest->at_begin[i]) + fabs(rest->at_end[i]),
-                     nothing = fmin(fabs(rest->values[i]), 1e-6 * size) + roundoff * size;
-        if (i == event || after[i] != rest->values[i]) {
-            wait_ahead(step, i, rest->after, after[i], i == event ? nothing : 0);
+        const double size = rest->sizes[i], g = rest->values[i], off = is_whole(step, i) ? g - round(g) : g;
+        if (i == event) {
+            wait_ahead(step, i, rest->after, after[i], fmin(fabs(off), NOTHING * size) + roundoff * size);
+        } else if (after[i] != g) {
+            wait_after(rest, i, place, after[i]);
         }
     }
     settle(step, rest->after, rest->values, after);
@@ -450,7 +504,7 @@ static bool change(struct rest *rest, double t, size_t event, bool changed)
     if (!turns) {
         book(rest);
     }
-    return true;
+    return GM_EVENTS_HAPPENED;
 }
 
 /* Returns true if the intervals between events have become too short to end. */
@@ -464,11 +518,9 @@ static bool are_too_short(struct gm_event_step *step, double t)
     return history[SHORT] >= MOST_SHORT;
 }
 
-/* Notes the event, if it is a break. */
 static void note(struct gm_event_step *step, size_t event, double g)
 {
-    const size_t first = first_break(step->problem);
-    step->turned = event < first ? SIZE_MAX : event - first;
+    step->turned = event;
     step->turned_at = is_whole(step, event) ? round(g) : 0;
 }
 
@@ -496,9 +548,12 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
             continue;
         }
         look_at(step->problem, t, rest->to, rest->look);
-        if (rest->places[i] < place - together || !events->happens(step->problem, i, rest->look)) {
-            double *sign = &step->memory[i]; /* passed without its conditions */
-            *sign = rest->places[i] <= place ? -*sign : *sign;
+        if (rest->places[i] < place - together || rest->jumps[i] != 0 ||
+            !events->change(step->problem, i, rest->look, NULL)) {
+            find_g(step, rest->look, rest->values); /* passed without its conditions, or by a jump */
+            step->memory[i] =
+                rest->places[i] <= place ? mode_beyond(step, i, rest->values[i]) : step->memory[i];
+            rest->places[i] = INFINITY;
             continue;
         }
         if (events->ends[i]) {
@@ -508,12 +563,14 @@ static enum gm_event_outcome pass_first(struct rest *rest, double place)
         if (i < first_break(step->problem) && made++ == 0) {
             many = are_too_short(step, t);
         }
-        if (!change(rest, t, i, made > 0)) {
-            return GM_EVENTS_FAILED;
+        const enum gm_event_outcome outcome = change(rest, t, i, made > 0);
+        if (outcome != GM_EVENTS_HAPPENED) {
+            return outcome;
         }
         note(step, i, rest->values[i]);
         memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
         rest->t = t;
+        i = i < first_break(step->problem) ? SIZE_MAX : i; /* its change may call any other */
     }
     find_values(rest, t, rest->to, rest->values);
     for (size_t i = first_break(step->problem); i < watched(step); i++) {
@@ -536,7 +593,7 @@ static size_t aligned(size_t numbers)
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size)
 {
     const size_t count = problem->events->count, quantities = problem->events->quantities;
-    return 2 * aligned(size) + 3 * (problem->n + 1) + 6 * count + 2 * quantities;
+    return 2 * aligned(size) + 3 * (problem->n + 1) + 8 * count + 2 * quantities;
 }
 
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
@@ -557,13 +614,18 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
                         .at_end = next + 3 * width + count,
                         .places = next + 3 * width + 2 * count,
                         .modes = next + 3 * width + 3 * count,
-                        .values = next + 3 * width + 4 * count};
+                        .sizes = next + 3 * width + 4 * count,
+                        .jumps = next + 3 * width + 5 * count,
+                        .values = next + 3 * width + 6 * count};
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
-    find_values(&rest, step->end_time, step->end, rest.at_end);
-    if (gm_events_near(step, rest.at_end, 1) == 1) {
+    if (!gm_events_near(step)) {
         return GM_EVENTS_NONE;
     }
+    find_values(&rest, step->end_time, step->end, rest.at_end);
     find_values(&rest, step->t, step->begin, rest.at_begin);
+    for (size_t i = 0; i < count; i++) {
+        rest.sizes[i] = fabs(rest.at_begin[i]) + fabs(rest.at_end[i]);
+    }
     memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
     for (int made = 0; made <= MOST_IN_A_STEP; made++) {
         const double place = take_sides(&rest) ? first_place(&rest) : NAN;
@@ -572,7 +634,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
         }
         outcome = isnan(place) ? GM_EVENTS_FAILED : pass_first(&rest, place);
         outcome = outcome == GM_EVENTS_HAPPENED && made == MOST_IN_A_STEP ? GM_EVENTS_MANY : outcome;
-        if (outcome == GM_EVENTS_FAILED) {
+        if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
             return outcome;
         }
         if (outcome != GM_EVENTS_HAPPENED || place == 1 || step->varies) {

@@ -11,22 +11,22 @@
 
 struct gm_event_part;
 
+/* The places where an event happens: at a 0 of g, which g passes, or to which it jumps; at each whole number of g; or, of a g that
+   changes only by jumps, at the jump to 0 or past it. */
+enum gm_event_form { GM_AT_ZERO, GM_AT_WHOLE, GM_AT_JUMP };
+
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
 struct gm_events {
-    size_t count, breaks;        /* the last of `count` are breaks, in runs that locate them */
-    const char *const *names;    /* [count]; "": none */
-    const char *const *surfaces; /* [breaks], the text of g */
-    const bool *whole;           /* [breaks]: it breaks at every whole number of g, else at 0 */
-    const bool *ends;            /* [count]: the event ends the run, and changes no state */
-    bool changes, ends_runs;     /* some event changes the state; some ends the run */
-    /* Writes g of all events for `looks` looks, with breaks in these modes: component c of the k-th is look[c * looks +
-       k], g of event i values[i * looks + k]. NaN when out of memory. */
-    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
-                   double *values);
-    /* Returns true if the conditions of an event hold. */
-    bool (*happens)(const struct gm_problem *problem, size_t event, const double *look);
-    /* Writes the n components after an event. */
-    void (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
+    size_t count, breaks;            /* the last of `count` are breaks, in runs that locate them */
+    const char *const *names;        /* [count]; "": none */
+    const char *const *surfaces;     /* [breaks], the text of g */
+    const enum gm_event_form *forms; /* [count]; of breaks no jump */
+    const bool *ends;                /* [count]: the event ends the run, and changes no state */
+    bool changes, ends_runs;         /* some event changes the state; some ends the run */
+    /* Writes g of all events, with breaks in these modes. NaN when out of memory. */
+    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, double *values);
+    /* Returns true if the conditions of an event hold. Writes the n components after it, unless y is NULL. */
+    bool (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
     /* Returns dg/dt along a motion, of the problem or with frozen switches. */
     double (*rate)(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
                    const double *look);
@@ -61,11 +61,11 @@ struct gm_event_witness {
     void *data;
 };
 
-/* The memory of events in a run's block, all doubles: for each event the sign of g that it waits with (0: not known), or
-   the mode of a break, which is that sign, or the whole number below g; how often each event happened; the jumps of the
+/* The memory of events in a run's block, all doubles: for each event its mode, the sign of g that it waits with (0: not
+   known, or none before g leaves 0), or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
-/* The number of times that an event happened; all of them for event `count`. Breaks do not count. */
+/* The number of times that an event or break happened; for number `count`, all events but breaks. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
@@ -93,8 +93,8 @@ struct gm_event_step {
     struct gm_event_witness witness;
     bool parts;       /* some were made */
     double reached;   /* the time of the end */
-    size_t turned;    /* the break at which it ends; SIZE_MAX: none */
-    double turned_at; /* the value of its g there */
+    size_t turned;    /* the event or break at which it ends; SIZE_MAX: none */
+    double turned_at; /* the value of g there; the time of an event without a value */
 };
 enum gm_event_outcome {
     GM_EVENTS_NONE,
@@ -102,6 +102,7 @@ enum gm_event_outcome {
     GM_EVENTS_ENDED,
     GM_EVENTS_FAILED,
     GM_EVENTS_MANY,
+    GM_EVENTS_NO_VALUE,
     GM_EVENTS_SLIDE
 };
 
@@ -109,14 +110,13 @@ size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
 /* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
    jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns the first of `looks` looks in which some event has not the sign that it waits with, or waits with none; `looks`:
-   none of them. Their values are those of gm_events. */
-size_t gm_events_near(const struct gm_event_step *step, const double *values, size_t looks);
+/* Returns true if some event, at the end of a step, has not the sign that it waits with, or waits with none. */
+bool gm_events_near(const struct gm_event_step *step);
 /* The modes of breaks. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_SLIDE: after a break the rate
-   points back. */
+   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_NO_VALUE: an event changes
+   the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 
 /* The zero of a function along a step, from `low` to 1, between values of different sign there: the place just

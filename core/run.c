@@ -119,23 +119,6 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
 }
 
-/* Lets breaks wait in the current state; `first`: all events. */
-static void arm(struct gm_run *run, bool first)
-{
-    if (run->problem->events) {
-        gm_events_arm(&(struct gm_event_step){.problem = run->problem,
-                                              .t = run->t,
-                                              .dt = run->dt,
-                                              .first = first,
-                                              .locates = gm_run_locates(run),
-                                              .begin = gm_run_state(run),
-                                              .memory = events_of(run, run->current),
-                                              .scratch = run->event_scratch,
-                                              .motion = take_motion,
-                                              .data = run});
-    }
-}
-
 /* The task that reads half `from` and writes half `to`. */
 static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_t steps)
 {
@@ -165,6 +148,105 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_
     };
 }
 
+/* The state is not the one after the last step. */
+static void reset_workspace(const struct gm_run *run)
+{
+    if (run->workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(run->workspace);
+    }
+}
+
+static void count_progress(struct gm_run *run, const struct gm_progress *progress)
+{
+    run->evaluations += progress->evaluations;
+    run->solves += progress->solves;
+    run->factor_solves += progress->factor_solves;
+    run->own_steps += progress->own_steps;
+    run->rejected += progress->rejected;
+    run->iterations += progress->iterations;
+}
+
+/* The task of a part of a step, from a state with all that belongs to it, in the run's block or of that layout. */
+static struct gm_task part_of(const struct gm_run *run, const double *from, double t, double dt, double *to)
+{
+    const size_t count = state_count(run), memory = count + carry_count(run);
+    struct gm_task task = task_of(run, run->current, run->current, 1);
+    task.y = from;
+    task.out = to;
+    task.carry = task.carry ? from + count : NULL;
+    task.carry_out = task.carry ? to + count : NULL;
+    task.memory = task.memory ? from + memory : NULL;
+    task.memory_out = task.memory ? to + memory : NULL;
+    task.t = task.t0 = t;
+    task.n = 0;
+    task.dt = dt;
+    task.steps_before = run->steps - 1;
+    return task;
+}
+
+/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
+static double make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
+{
+    struct gm_run *run = data;
+    const unsigned long refusals = gm_memory_refusals();
+    if (!gm_run_motion(run)) {
+        return NAN;
+    }
+    const struct gm_task task = part_of(run, from, t, dt, to);
+    reset_workspace(run);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
+    if (counted) {
+        count_progress(run, &progress);
+        run->status = progress.status;
+        run->unsolved = progress.unsolved;
+    }
+    const bool made = progress.done == 1 && gm_memory_refusals() == refusals;
+    return !made ? NAN : run->scheme->family->adaptive ? progress.t : t + dt;
+}
+
+/* gm_event_step.restart */
+static bool restart(void *data, double t, double *state)
+{
+    struct gm_run *run = data;
+    const struct gm_task task = part_of(run, state, t, run->dt, state);
+    run->status = run->scheme->family->start ? run->scheme->family->start(&task) : GM_OK;
+    return run->status == GM_OK;
+}
+
+/* The current state, as a step without length that events may be in. */
+static struct gm_event_step event_step(struct gm_run *run)
+{
+    double *state = half(run, run->current);
+    return (struct gm_event_step){.problem = run->problem,
+                                  .t = run->t,
+                                  .dt = run->dt,
+                                  .end_time = run->t,
+                                  .varies = run->scheme->family->adaptive,
+                                  .ends = run->ends,
+                                  .locates = gm_run_locates(run),
+                                  .size = whole_count(run),
+                                  .state = state_count(run),
+                                  .begin = state,
+                                  .end = state,
+                                  .memory = events_of(run, run->current),
+                                  .scratch = run->event_scratch,
+                                  .part = make_part,
+                                  .restart = restart,
+                                  .motion = take_motion,
+                                  .data = run,
+                                  .witness = run->witness};
+}
+
+/* Lets breaks wait in the current state; `first`: all events. */
+static void arm(struct gm_run *run, bool first)
+{
+    if (run->problem->events) {
+        struct gm_event_step step = event_step(run);
+        step.first = first;
+        gm_events_arm(&step);
+    }
+}
+
 /* Lets the scheme fill its memory from the current state. */
 static void start(struct gm_run *run)
 {
@@ -178,15 +260,10 @@ static void start(struct gm_run *run)
     }
 }
 
-enum { TOGETHER = 64 /* steps whose events are looked for at once */ };
-
-/* Takes the scratch of events: for a step, for looks and values of steps together, and for a snapshot. */
+/* Takes the scratch of events. */
 static bool open_events(struct gm_run *run)
 {
-    const struct gm_problem *problem = run->problem;
-    const size_t step = gm_events_scratch(problem, whole_count(run)),
-                 looks = TOGETHER * (problem->n + 1 + problem->events->count),
-                 size = (step + looks + 1) * sizeof(double) + gm_run_snapshot_size(run);
+    const size_t size = gm_events_scratch(run->problem, whole_count(run)) * sizeof(double);
     run->looks_back = true;
     run->event_scratch = aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
     return run->event_scratch != NULL;
@@ -204,6 +281,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
         return NULL;
     }
     head.motion = problem;
+    head.turned = SIZE_MAX;
     if (!open_workspace(&head)) {
         gm_memory_refused(); /* refused by a library, if not noted before */
         free(run);
@@ -265,22 +343,20 @@ static bool is_in_place(const struct gm_run *run, gm_loop *loop, int64_t steps)
            steps <= FARTHEST_BEHIND - run->behind;
 }
 
-/* The state is not the one after the last step. */
-static void reset_workspace(const struct gm_run *run)
+/* Takes steps that a loop has made, from one half of the block to the other or in place. */
+static void take_steps(struct gm_run *run, const struct gm_progress *progress, bool in_place)
 {
-    if (run->workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(run->workspace);
+    count_progress(run, progress);
+    run->t_behind = run->t;
+    if (run->problem->events && !in_place) {
+        memcpy(events_of(run, 1 - run->current), events_of(run, run->current),
+               gm_events_memory(run->problem) * sizeof(double));
     }
-}
-
-static void count_progress(struct gm_run *run, const struct gm_progress *progress)
-{
-    run->evaluations += progress->evaluations;
-    run->solves += progress->solves;
-    run->factor_solves += progress->factor_solves;
-    run->own_steps += progress->own_steps;
-    run->rejected += progress->rejected;
-    run->iterations += progress->iterations;
+    run->current = in_place ? run->current : 1 - run->current;
+    run->behind += progress->done;
+    run->n += progress->done;
+    run->steps += progress->done;
+    run->t = run->scheme->family->adaptive ? progress->t : run->t0 + (double)run->n * run->dt;
 }
 
 /* Makes steps, whatever happens in them; if it watches, only those before the first that reaches a break or fails. */
@@ -328,103 +404,36 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
             return run->status;
         }
     }
-    count_progress(run, &progress);
-    run->t_behind = run->t;
-    if (run->problem->events && !in_place) {
-        memcpy(events_of(run, 1 - run->current), events_of(run, run->current),
-               gm_events_memory(run->problem) * sizeof(double));
-    }
-    run->current = in_place ? run->current : 1 - run->current;
-    run->behind += progress.done;
-    run->n += progress.done;
-    run->steps += progress.done;
-    run->t = family->adaptive ? progress.t : run->t0 + (double)run->n * run->dt;
+    take_steps(run, &progress, in_place);
     return run->status;
 }
 
 /* ---- events ---- */
 
-/* The task of a part of a step, from a state with all that belongs to it, in the run's block or of that layout. */
-static struct gm_task part_of(const struct gm_run *run, const double *from, double t, double dt, double *to)
-{
-    const size_t count = state_count(run), memory = count + carry_count(run);
-    struct gm_task task = task_of(run, run->current, run->current, 1);
-    task.y = from;
-    task.out = to;
-    task.carry = task.carry ? from + count : NULL;
-    task.carry_out = task.carry ? to + count : NULL;
-    task.memory = task.memory ? from + memory : NULL;
-    task.memory_out = task.memory ? to + memory : NULL;
-    task.t = task.t0 = t;
-    task.n = 0;
-    task.dt = dt;
-    task.steps_before = run->steps - 1;
-    return task;
-}
-
-/* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
-static double make_part(void *data, const double *from, double t, double dt, double *to, bool counted)
-{
-    struct gm_run *run = data;
-    const unsigned long refusals = gm_memory_refusals();
-    if (!gm_run_motion(run)) {
-        return NAN;
-    }
-    const struct gm_task task = part_of(run, from, t, dt, to);
-    reset_workspace(run);
-    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
-    if (counted) {
-        count_progress(run, &progress);
-        run->status = progress.status;
-        run->unsolved = progress.unsolved;
-    }
-    const bool made = progress.done == 1 && gm_memory_refusals() == refusals;
-    return !made ? NAN : run->scheme->family->adaptive ? progress.t : t + dt;
-}
-
-/* gm_event_step.restart */
-static bool restart(void *data, double t, double *state)
-{
-    struct gm_run *run = data;
-    const struct gm_task task = part_of(run, state, t, run->dt, state);
-    run->status = run->scheme->family->start ? run->scheme->family->start(&task) : GM_OK;
-    return run->status == GM_OK;
-}
-
 /* Looks for events in the step that was just made, of length dt. */
 static void pass_events(struct gm_run *run, double dt)
 {
     const int before = 1 - run->current;
-    const bool varies = run->scheme->family->adaptive;
-    struct gm_event_step step = {.problem = run->problem,
-                                 .t = varies ? run->t_behind : run->t0 + (double)(run->n - 1) * run->dt,
-                                 .dt = dt,
-                                 .end_time = run->t,
-                                 .varies = varies,
-                                 .first = run->steps == 1,
-                                 .ends = run->ends,
-                                 .locates = gm_run_locates(run),
-                                 .size = whole_count(run),
-                                 .state = state_count(run),
-                                 .begin = half(run, before),
-                                 .end = half(run, run->current),
-                                 .memory = events_of(run, run->current),
-                                 .scratch = run->event_scratch,
-                                 .part = make_part,
-                                 .restart = restart,
-                                 .motion = take_motion,
-                                 .data = run,
-                                 .witness = run->witness};
+    struct gm_event_step step = event_step(run);
+    step.t = step.varies ? run->t_behind : run->t0 + (double)(run->n - 1) * run->dt;
+    step.dt = dt;
+    step.begin = half(run, before);
+    step.first = run->steps == 1;
     run->behind = 0; /* a step in parts is not repeated */
     const unsigned long refusals = gm_memory_refusals();
     enum gm_event_outcome outcome = gm_events_pass(&step);
     const bool refused = gm_memory_refusals() != refusals;
     outcome = refused ? GM_EVENTS_FAILED : outcome;
+    run->turned = outcome > GM_EVENTS_FAILED ? step.turned : run->turned;
+    run->turned_at = step.turned_at;
     if (step.parts) {
         reset_workspace(run);
     }
-    if (outcome == GM_EVENTS_FAILED) {
-        run->status = refused ? GM_OUT_OF_MEMORY : run->status == GM_OK ? GM_NO_CONVERGENCE : run->status;
+    if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
+        run->status = refused                         ? GM_OUT_OF_MEMORY
+                      : outcome == GM_EVENTS_NO_VALUE ? GM_BLOW_UP
+                      : run->status == GM_OK          ? GM_NO_CONVERGENCE
+                                                      : run->status;
         run->current = before;
         run->n--;
         run->steps--;
@@ -432,53 +441,45 @@ static void pass_events(struct gm_run *run, double dt)
     } else if (outcome == GM_EVENTS_NONE) {
         run->behind = 1;
     } else if (outcome == GM_EVENTS_HAPPENED) {
-        run->t = varies ? step.reached : run->t;
+        run->t = step.varies ? step.reached : run->t;
     } else {
         run->stopped = outcome == GM_EVENTS_ENDED;
         run->status = outcome == GM_EVENTS_MANY    ? GM_EVENTS_ACCUMULATE
                       : outcome == GM_EVENTS_SLIDE ? GM_SLIDING
                                                    : run->status;
-        run->turned = step.turned;
-        run->turned_at = step.turned_at;
         run->t = run->t0 = step.reached;
         run->n = 0;
     }
 }
 
-/* Makes up to `steps` steps, at most TOGETHER, before the first in which an event may happen: to look for events after each
-   takes longer than a short step. Returns their number. */
-static int64_t make_together(struct gm_run *run, int64_t steps)
+/* Makes up to `steps` steps of a scheme that repeats steps, before the first in which an event may happen, or that fails. */
+static void make_steps_before_events(struct gm_run *run, int64_t steps)
 {
-    const struct gm_problem *problem = run->problem;
-    const size_t n = problem->n, m = problem->m, count = (size_t)steps;
-    double *looks = run->event_scratch + gm_events_scratch(problem, whole_count(run)),
-           *values = looks + TOGETHER * (n + 1), *snapshot = values + TOGETHER * problem->events->count;
     const unsigned long refusals = gm_memory_refusals();
-    size_t made = 0;
-    gm_run_save(run, snapshot);
-    while (made < count && make_steps(run, 1, INFINITY, false) == GM_OK) {
-        const double *state = gm_run_state(run);
-        for (size_t c = 0; c < n; c++) {
-            looks[c * count + made] = state[c * m + m - 1];
+    if (!gm_run_motion(run)) {
+        return;
+    }
+    gm_loop *loop = gm_scheme_loop(run->scheme, run->motion);
+    struct gm_event_step step = event_step(run);
+    struct gm_task tasks[2]; /* from each half of the block to the other */
+    for (int from = 0; from < 2; from++) {
+        tasks[from] = part_of(run, half(run, from), run->t, run->dt, half(run, 1 - from));
+    }
+    for (int64_t made = 0; made < steps; made++) {
+        struct gm_task *task = &tasks[run->current];
+        task->t = task->t0 = run->t;
+        task->steps_before = run->steps;
+        step.memory = events_of(run, run->current);
+        step.end = task->out;
+        step.end_time = run->t0 + (double)(run->n + 1) * run->dt;
+        const struct gm_progress progress = loop(task);
+        run->behind = 0;
+        if (progress.done < 1 || gm_events_near(&step) || gm_memory_refusals() != refusals) {
+            reset_workspace(run);
+            return;
         }
-        looks[n * count + made++] = run->t;
+        take_steps(run, &progress, false);
     }
-    if (made == count) {
-        const struct gm_event_step waiting = {.problem = problem,
-                                              .memory = events_of(run, run->current),
-                                              .ends = run->ends,
-                                              .locates = gm_run_locates(run)};
-        problem->events->values(problem, gm_events_modes(problem, waiting.memory), looks, count, values);
-        made = gm_events_near(&waiting, values, count);
-    } else {
-        made = 0;
-    }
-    made = gm_memory_refusals() == refusals ? made : 0;
-    if (made < count) {
-        gm_run_load(run, snapshot); /* cannot fail: a snapshot of this run */
-        make_steps(run, (int64_t)made, INFINITY, false);
-    }
-    return (int64_t)made;
 }
 
 /* Returns true if the scheme's loop ends before a step that reaches a break. */
@@ -578,23 +579,16 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
         return make_steps(run, steps, reached, false);
     }
     const bool repeats = gm_scheme_repeats_steps(run->scheme);
-    for (int64_t batch = TOGETHER;
-         steps > 0 && run->status == GM_OK && !run->stopped && !(adaptive && run->t >= reached);) {
+    while (steps > 0 && run->status == GM_OK && !run->stopped && !(adaptive && run->t >= reached)) {
+        const int64_t first = run->steps;
         if (!watched && loop_watches(run)) {
-            const int64_t whole = run->steps;
             make_steps(run, steps, reached, true);
-            steps -= run->steps - whole;
-            if (steps == 0 || run->status != GM_OK) {
-                break;
-            }
-        } else if (repeats && batch > 1 && steps >= batch) {
-            const int64_t made = make_together(run, batch);
-            steps -= made;
-            if (made == batch) {
-                batch = 2 * batch < TOGETHER ? 2 * batch : TOGETHER;
-                continue;
-            }
-            batch = made;
+        } else if (repeats) {
+            make_steps_before_events(run, steps);
+        }
+        steps -= run->steps - first;
+        if (steps == 0 || run->status != GM_OK) {
+            break;
         }
         const int64_t before = run->steps;
         if (make_steps(run, 1, reached, false) == GM_OK && run->steps > before) {
@@ -603,7 +597,6 @@ static enum gm_status advance(struct gm_run *run, int64_t steps, double until)
             break;
         }
         steps--;
-        batch = batch < 2 ? 2 : batch;
     }
     return run->status;
 }
@@ -750,7 +743,8 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
            isfinite(then->dt) && then->dt != 0 && isfinite(then->t) && then->limit > 0 &&
            (then->stopped & ~1) == 0 &&
            (then->status != GM_SLIDING ||
-            (run->problem->events && then->turned < run->problem->events->breaks)) &&
+            (run->problem->events && then->turned < run->problem->events->count &&
+             then->turned >= run->problem->events->count - run->problem->events->breaks)) &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 

@@ -35,8 +35,8 @@ struct gm_run {
     const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
     bool across;      /* breaks are not located in this step, which a frozen formula does not make */
     void *frozen;     /* keeps such problems; NULL: none, or breaks are not located */
-    size_t turned;    /* with GM_SLIDING, and with GM_EVENTS_ACCUMULATE if breaks do: the break */
-    double turned_at; /* and the value of its g */
+    size_t turned;    /* the event or break at which the run has failed; SIZE_MAX: none */
+    double turned_at; /* the value of its g; after GM_BLOW_UP its time */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem

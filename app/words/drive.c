@@ -303,7 +303,10 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         [GM_OUT_OF_MEMORY] = "there was not enough memory to continue from t = %.6g, or to observe it",
     };
     const struct gm_run *run = lane->run;
-    const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE;
+    const struct gm_events *events = run->problem->events;
+    const size_t first = events ? events->count - events->breaks : 0;
+    const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE,
+               breaks = events && run->turned >= first && run->turned < events->count;
     text[0] = '\0';
     const bool tangled = run->status == GM_MESH_CROSSING, ended = run->status == GM_OK && run->stopped;
     if ((!solved || tangled || ended || run->status == GM_STEP_COLLAPSE) &&
@@ -317,13 +320,12 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     }
     if (run->status == GM_NO_CONVERGENCE) {
         tell_unsolved(run, text, size);
-    } else if (run->status == GM_SLIDING ||
-               (run->status == GM_EVENTS_ACCUMULATE && run->turned < run->problem->events->breaks)) {
+    } else if (breaks && (run->status == GM_SLIDING || run->status == GM_EVENTS_ACCUMULATE)) {
         const char *const sentence =
             run->status == GM_SLIDING
                 ? "the motion slides along %.120s = %g from t = %.10g: both rates point at it"
                 : "a step passes more than 1000 breaks, up to %.120s = %g at t = %.10g: take a shorter dt";
-        snprintf(text, size, sentence, run->problem->events->surfaces[run->turned], run->turned_at, run->t);
+        snprintf(text, size, sentence, events->surfaces[run->turned - first], run->turned_at, run->t);
     } else if (run->status != GM_OK) {
         snprintf(text, size, sentences[run->status], run->t, run->limit);
     }

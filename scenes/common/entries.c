@@ -10,48 +10,6 @@
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
 
-/* A step that is repeated with other lengths. */
-struct step {
-    struct gm_view view; /* view of the last place evaluated */
-    double (*value)(const struct gm_view *view);
-    double begin, h;
-    double *storage; /* storage of gm_run_part */
-};
-
-static double value_after(void *data, double s)
-{
-    struct step *step = data;
-    step->view.t = step->begin + s * step->h;
-    return gm_run_part(step->view.run, s, step->storage) ? step->value(&step->view) : NAN;
-}
-
-/* Finds the place in the last step of a view's run at which `value` passes 0. Returns the fraction of the
-   step that ends just beyond; `state` (n * m) is the state there. The scheme repeats its step, shorter, so
-   the place has the scheme's accuracy. Returns NaN if the step cannot be repeated (gm_run_repeats), `value`
-   does not change its sign, or when out of memory. The step must have begun at the caller's last state. */
-static double find_again(const struct gm_view *view, double (*value)(const struct gm_view *view),
-                         double *state)
-{
-    enum { ALIGNMENT = 128 };
-    const size_t size = view->problem->n * view->problem->m * sizeof *state;
-    struct step step = {.view = *view, .value = value, .begin = view->t - view->dt, .h = view->dt};
-    step.storage = gm_run_repeats(view->run)
-                       ? aligned_alloc(ALIGNMENT, (2 * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
-                       : NULL;
-    if (!step.storage) {
-        return NAN;
-    }
-    step.view.state = gm_run_before(view->run);
-    step.view.t = step.begin;
-    const double before = value(&step.view), after = value(view);
-    step.view.state = step.storage;
-    double place = gm_zero_beyond(value_after, &step, 0, before, after);
-    place = isnan(value_after(&step, place)) ? NAN : place;
-    memcpy(state, step.storage, size);
-    free(step.storage);
-    return place;
-}
-
 /* ---- entries ---- */
 
 size_t gm_active_count(const struct gm_problem *problem)
@@ -152,38 +110,64 @@ static void find_slopes(const struct gm_view *view, const struct gm_behind *behi
     loops->field(view->problem, view->state, slopes + active, view->problem->m);
 }
 
-/* Finds the crossing of a section in a step, of member there->member if members have their own. It uses the
-   cubic with the field's slopes at both ends; its error is of order 4 in the step. */
-static void find_crossing(const struct gm_track *track, const struct gm_view *view,
-                          const struct gm_behind *behind, double before, double after, struct gm_view *there)
+/* A section that was crossed in the last step. */
+struct crossing {
+    const struct gm_track *track;
+    const struct gm_view *view; /* the end of the step */
+    const struct gm_behind *behind;
+    struct gm_view *there; /* the last place evaluated, of one member if members have their own sections */
+    double *storage;       /* of gm_run_part; NULL: the step is not repeated */
+};
+
+/* The section's value after a fraction of the step: the scheme repeats it, shorter, so that the place has the scheme's
+   accuracy; or the cubic with the field's slopes at both ends, whose error is of order 4 in the step. */
+static double value_after(void *data, double s)
 {
-    const size_t active = gm_active_count(view->problem);
-    const size_t from = track->each ? there->member : 0, stride = track->each ? view->problem->m : 1;
-    double *slopes = behind->state + active, *between = slopes + 2 * active;
-    const double h = view->t - behind->t, sign = after >= 0 ? 1 : -1;
-    double low = 0, high = 1, below = sign * before, above = sign * after;
-    there->state = between;
-    /* regula falsi, with bisection so that both ends move */
-    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
-        const double secant = low - below * (high - low) / (above - below);
-        const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
-        for (size_t c = from; c < active; c += stride) {
-            between[c] = r * r * (1 + 2 * s) * behind->state[c] + s * s * (3 - 2 * s) * view->state[c] +
-                         h * s * r * (r * slopes[c] - s * slopes[active + c]);
-        }
-        there->t = behind->t + s * h;
-        const double value = sign * track->section(there);
-        if (value == 0) {
-            break;
-        }
-        if (value > 0) {
-            high = s;
-            above = value;
-        } else {
-            low = s;
-            below = value;
-        }
+    const struct crossing *crossing = data;
+    const struct gm_view *view = crossing->view;
+    const struct gm_behind *behind = crossing->behind;
+    const double h = view->t - behind->t, r = 1 - s;
+    crossing->there->t = behind->t + s * h;
+    if (crossing->storage) {
+        crossing->there->state = crossing->storage;
+        return gm_run_part(view->run, s, crossing->storage) ? crossing->track->section(crossing->there) : NAN;
     }
+    const size_t active = gm_active_count(view->problem),
+                 stride = crossing->track->each ? view->problem->m : 1;
+    double *slopes = behind->state + active, *between = slopes + 2 * active;
+    for (size_t c = crossing->track->each ? crossing->there->member : 0; c < active; c += stride) {
+        between[c] = r * r * (1 + 2 * s) * behind->state[c] + s * s * (3 - 2 * s) * view->state[c] +
+                     h * s * r * (r * slopes[c] - s * slopes[active + c]);
+    }
+    crossing->there->state = between;
+    return crossing->track->section(crossing->there);
+}
+
+/* Finds the place of a crossing. Returns false if that needs a step that fails. */
+static bool find_crossing(struct crossing *crossing, double before, double after)
+{
+    const double s = gm_zero_beyond(value_after, crossing, 0, before, after);
+    return !isnan(value_after(crossing, s));
+}
+
+/* Finds it by repeated steps; false also if the last step cannot be repeated, or when out of memory. */
+static bool find_again(struct crossing *crossing, double before, double after)
+{
+    enum { ALIGNMENT = 128 };
+    const struct gm_problem *problem = crossing->view->problem;
+    const size_t count = problem->n * problem->m, size = 2 * count * sizeof(double);
+    crossing->storage = is_before(crossing->behind, crossing->view)
+                            ? aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)
+                            : NULL;
+    const bool found = crossing->storage && find_crossing(crossing, before, after);
+    double *between = crossing->behind->state + 3 * gm_active_count(problem);
+    if (found) {
+        memcpy(between, crossing->storage, gm_active_count(problem) * sizeof *between);
+        crossing->there->state = between;
+    }
+    free(crossing->storage);
+    crossing->storage = NULL;
+    return found;
 }
 
 /* Makes an entry of a section, unless thinning leaves it out. */
@@ -219,19 +203,13 @@ static void record_crossings(struct gm_entries *entries, const struct gm_track *
         if (!(upwards || downwards) || behind->t == view->t) {
             continue;
         }
-        double *between = behind->state + 3 * gm_active_count(view->problem), share = NAN;
-        if (again && is_before(behind, view)) {
-            share = find_again(view, track->section, between);
-        }
-        if (!isnan(share)) {
-            there.state = between;
-            there.t = behind->t + share * (view->t - behind->t);
-        } else {
+        struct crossing crossing = {track, view, behind, &there, NULL};
+        if (!(again && find_again(&crossing, before, after))) {
             if (!known) {
                 find_slopes(view, behind);
                 known = true;
             }
-            find_crossing(track, view, behind, before, after, &there);
+            find_crossing(&crossing, before, after);
         }
         if (!track->admits || track->admits(&there)) {
             add_crossing(entries, track, &there);

@@ -867,6 +867,44 @@ for line in 'q = 1e9; p = 0' 'q = 0.5, p > 1e9; q = 0' 'q = 1e9; stop'; do
         cmp -s calm.state never.state || fail "$line changes what never comes to it by $scheme"
     done
 done
+# what a quantity is measured against goes through events, too: a ball that falls on and on would only measure round-off
+for scheme in avf2 'projected(rk4; invariants: H)'; do
+    "$geomint" certify "$scheme" --on ball.system >out || fail "certify $scheme at bounces: $(cat out)"
+    grep -q 'in 4000 steps H .*e-1[5-9] in [0-9]* steps, then events-accumulate' out || fail "$scheme at bounces: $(cat out)"
+done
+# a jump past a value does not reach it, unless the formula only jumps; mod reaches each of its values once a period
+printf '%s\n' 4,4,4,4:'mod(t, 1) = 0' 4,4,4,4:'mod(t, 1) - 1/2 = 0' 5,5,5,5:'mod(x, 1) = h' 1,1,1,1:'floor(t) = 3' \
+    1,1,1,1:'3 = floor(x)' 1,1,1,1:'floor(t) = 5/2' 1,1,1,1:'ceil(t) = 3' 1,1,1,1:'sign(x - 2) = 0' \
+    1,1,1,1:'if(t > 2, 1, -1) = 0' 1,1,1,1:'if(t > 2, x - 2, -1) = 0' 1,1,1,1:'if(x > 1.95, x - 4, 3 - x) = 0' \
+    1,1,1,1:'tan(t) = 0' 0,0,0,0:'1/(t - 2) = 0' 0,0,0,0:'abs(x) = 0' 0,0,0,0:'if(x > 1, -x, x) = 0' >jumps
+while IFS=: read -r counts event; do
+    found=
+    printf 'parameter: h = 1/8\nrate: x = 1, n = 0\nevent: %s; n = n + 1\nstart: x = 0, n = 0\n' "$event" >jump.system
+    for dt in 0.1 0.25 1 2.125; do
+        "$geomint" run jump.system dt=$dt until=4.25 scheme=rk4 >out || fail "$event ends the run: $(cat out)"
+        found=$found,$(sed -n 's/^ *events  *//p' out)
+    done
+    [ "$found" = ",$counts" ] || fail "$event happens $found times"
+done <jumps
+printf 'rate: x = -1, n = 0\nstart: x = 4.25, n = 0\nevent: floor(x) = 3; n = t\ndt: 0.1\nuntil: 4\n' >downwards.system
+"$geomint" run downwards.system scheme=rk4 --json --state >out || fail 'floor, downwards'
+python3 -c 'import json; end = json.load(open("out")); assert abs(end["state"][1] - 0.25) < 1e-14 and end["observables"]["events"] == 1, end' ||
+    fail "floor, downwards: $(cat out)"
+# a memory reaches an event, or a stop, at the event that changes it, wherever that is in the file
+printf 'rate: y = v, v = -2, n = 0, m = 0\nevent: late; n = 3; m = t\nevent: y = 0, v < 0; v = -v, n = n + 1\nstart: y = 1, v = 0, n = 0, m = 0\ndt: 0.1\nuntil: 20\n' >memory.system
+{ cat memory.system; echo 'stop: n - 4.5'; } >full.system
+"$geomint" run memory.system scheme=rk4 --json --state >out && "$geomint" run full.system scheme=rk4 --json --state >full || fail 'a memory'
+python3 -c '
+import json
+end, full = json.load(open("out")), json.load(open("full"))
+assert abs(end["state"][3] - 5) < 1e-13 and end["observables"]["events_late"] == 1 and end["observables"]["events"] == 11, end
+assert abs(full["t"] - 9) < 1e-13 and full["state"][2] == 5, full
+' || fail "a memory: $(cat out full)"
+# a new value that is not finite
+printf 'rate: x = -1, n = 0\nstart: x = 1, n = 0\nevent: hit; x = 0.55; n = log(x - 1)\ndt: 0.1\nuntil: 4\n' >log.system
+status 2 run log.system scheme=rk4
+grep -q 'the step after t = 0.4 failed: the event hit at t = 0.45 has no value (line 3, column 8)' out ||
+    fail "an event without a value: $(cat out)"
 # several at one time, in the order of the file, each once; a reset that does not leave the surface is no endless loop
 printf 'rate: x = 1, y = 0\nstart: x = 0, y = 0\nevent: x = 1; y = y + 1\nevent: x = 1; y = 2*y\nevent: x = 1, y > 1.5; y = y + 10\n' >three.system
 "$geomint" run three.system scheme=rk4 dt=0.3 until=2 --json --state >out || fail 'three at once'

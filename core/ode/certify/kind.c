@@ -383,7 +383,20 @@ static void judge(struct gm_certificate *certificate, const struct gm_subject *s
     }
 }
 
-/* Notes what becomes of an invariant in 4000 steps, and judges the claims that concern it. */
+/* The sum of the jumps that events give an invariant. */
+struct jumps {
+    const struct gm_kept *kept;
+    double sum;
+};
+
+static void see_jump(void *data, const struct gm_event_part *part)
+{
+    struct jumps *jumps = data;
+    const struct gm_kept *kept = jumps->kept;
+    jumps->sum += kept->value(kept->data, part->after, NULL) - kept->value(kept->data, part->before, NULL);
+}
+
+/* Notes what becomes of an invariant in 4000 steps, beside the jumps of events, and judges the claims that concern it. */
 static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
                    const struct gm_kept *kept, unsigned claims)
 {
@@ -401,9 +414,11 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     if (!run) {
         return;
     }
+    struct jumps jumps = {kept, 0};
+    run->witness = (struct gm_event_witness){see_jump, &jumps};
     int look = 0;
     for (; look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
-        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0;
+        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0 - jumps.sum;
         struct quarter *now = &quarters[look / LOOKS];
         *now = look % LOOKS == 0 ? (struct quarter){change, change}
                                  : (struct quarter){fmin(now->low, change), fmax(now->high, change)};
@@ -486,24 +501,23 @@ static void doubt(struct gm_certificate *certificate, const struct gm_subject *s
     }
 }
 
-/* The events of a run: the time of the first, and the one when each break has been passed twice; NaN: not yet. */
-struct passages {
-    const struct gm_problem *problem;
-    double first, twice;
-    unsigned *counts;
-};
-
-static void see_passage(void *data, const struct gm_event_part *part)
+/* *first := the time of the first event or break, if it is NaN. */
+static void see_first(void *data, const struct gm_event_part *part)
 {
-    struct passages *passages = data;
-    const struct gm_events *events = passages->problem->events;
-    const double t = part->before[passages->problem->n];
-    unsigned least = ++passages->counts[part->event];
-    passages->first = isnan(passages->first) ? t : passages->first;
+    double *first = data;
+    *first = isnan(*first) ? part->before[part->ahead->n] : *first;
+}
+
+/* Returns true if a run has passed each break twice; without breaks, some event. */
+static bool has_passed(const struct gm_run *run)
+{
+    const struct gm_events *events = run->problem->events;
+    const double *memory = gm_run_events(run);
+    bool passed = events->breaks > 0 || gm_events_happened(run->problem, memory, events->count) > 0;
     for (size_t i = events->count - events->breaks; i < events->count; i++) {
-        least = passages->counts[i] < least ? passages->counts[i] : least;
+        passed &= gm_events_happened(run->problem, memory, i) >= 2;
     }
-    passages->twice = isnan(passages->twice) && events->breaks > 0 && least >= 2 ? t : passages->twice;
+    return passed;
 }
 
 /* Returns the state half a step before the first event or break of a run, and one a whole step earlier, from which one step
@@ -515,24 +529,20 @@ static double *start_before_event(const struct gm_subject *subject, double *pass
     const struct gm_events *events = problem->events;
     const struct gm_settings settings = gm_subject_settings(subject->dt);
     const size_t bytes = problem->n * sizeof(double);
-    struct passages passages = {problem, NAN, NAN, NULL};
     const bool looks = events && (events->changes || events->breaks > 0);
-    double *state = looks ? malloc(2 * bytes) : NULL;
-    passages.counts = looks ? calloc(events->count, sizeof *passages.counts) : NULL;
-    struct gm_run *run = state && passages.counts ? gm_run_open(problem, subject->scheme, &settings, 0,
-                                                                subject->dt, subject->start)
-                                                  : NULL;
+    double *state = looks ? malloc(2 * bytes) : NULL, first = NAN;
+    struct gm_run *run =
+        state ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
+    *passed = NAN;
     if (run) {
-        run->witness = (struct gm_event_witness){see_passage, &passages};
-    }
-    for (int steps = 0; run && steps < 2000 && isnan(events->breaks > 0 ? passages.twice : passages.first) &&
-                        gm_run_advance(run, 1) == GM_OK;
-         steps++) {
+        run->witness = (struct gm_event_witness){see_first, &first};
+        while (run->steps < 2000 && !has_passed(run) && gm_run_advance(run, 1) == GM_OK) {
+        }
+        *passed = has_passed(run) && !events->changes ? run->t : NAN;
     }
     gm_run_close(run);
-    free(passages.counts);
-    const double until = passages.first - subject->dt / 2, whole = floor(until / subject->dt);
-    *passed = events && events->changes ? NAN : passages.twice - (whole >= 0 ? until : 0);
+    const double until = first - subject->dt / 2, whole = floor(until / subject->dt);
+    *passed -= whole >= 0 ? until : 0;
     run =
         whole >= 0 ? gm_run_open(problem, subject->scheme, &settings, 0, subject->dt, subject->start) : NULL;
     bool there = run && (whole < 1 || gm_run_advance(run, (int64_t)whole - 1) == GM_OK);
@@ -584,8 +594,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     subject.start = start ? start : subject.start;
     subject.unit = fmax(subject.unit, subject.passed / 2);
     measure(certificate, &subject);
-    const struct gm_subject between = gm_subject_between_events(&subject);
-    follow_all(certificate, &between);
+    follow_all(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; doubts_order(certificate, scheme) && shorter < 4; shorter++) {
         subject.unit /= 8;

@@ -12,38 +12,35 @@
 
 /* Evaluates a tape of the system with frozen switches, whose inputs are all variables; the modes are the last. */
 static void frozen_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
-                          const double *look, size_t looks, double *values)
+                          const double *look, double *values)
 {
+    enum { FEW = 256 }; /* more inputs are allocated */
     const struct gm_user_data *self = gm_user_data_of(problem);
     const size_t given = self->model->system->n + 1, own = self->model->system->variable_count;
-    double *inputs = malloc(tape->inputs * looks * sizeof *inputs);
-    for (size_t i = 0; i < tape->count * looks && !inputs; i++) {
+    double few[FEW], *inputs = tape->inputs <= FEW ? few : malloc(tape->inputs * sizeof *inputs);
+    for (size_t i = 0; i < tape->count && !inputs; i++) {
         values[i] = NAN;
     }
-    for (size_t i = given; i < tape->inputs && inputs; i++) {
-        for (size_t k = 0; k < looks; k++) {
-            inputs[i * looks + k] = i < own ? self->values[i] : modes[i - own];
-        }
-    }
     if (inputs) {
-        memcpy(inputs, look, given * looks * sizeof *inputs);
-        gm_late_tape_values(tape, inputs, values, looks);
+        memcpy(inputs, look, given * sizeof *inputs);
+        memcpy(inputs + given, self->values + given, (own - given) * sizeof *inputs);
+        memcpy(inputs + own, modes, (tape->inputs - own) * sizeof *inputs);
+        gm_late_tape_values(tape, inputs, values, 1);
     }
-    free(inputs);
+    free(inputs == few ? NULL : inputs);
 }
 
 /* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
    components and the time. */
-static void values(const struct gm_problem *problem, const double *modes, const double *look, size_t looks,
-                   double *g)
+static void values(const struct gm_problem *problem, const double *modes, const double *look, double *g)
 {
     struct gm_user_data *self = gm_user_data_of(problem);
     const size_t count = self->model->event_count;
     if (count > 0) {
-        gm_user_values(problem, GM_USER_SURFACES, look, g, looks);
+        gm_user_values(problem, GM_USER_SURFACES, look, g, 1);
     }
     if (self->events.breaks > 0) {
-        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, looks, g + count * looks);
+        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, g + count);
     }
 }
 
@@ -54,24 +51,26 @@ static const struct gm_user_event *event_of(const struct gm_problem *problem, si
                                       : &model->frozen->events[event - model->event_count];
 }
 
-/* Writes the conditions and the new values; NULL when out of memory, which is noted. The caller frees. */
-static double *outcome_of(const struct gm_problem *problem, size_t event, const double *look)
+/* gm_events.change */
+static bool change(const struct gm_problem *problem, size_t event, const double *look, double *y)
 {
-    struct gm_late_tape *tape = &gm_user_data_of(problem)->changes[event];
-    double *outcome = malloc((tape->count + 1) * sizeof *outcome);
+    struct gm_user_data *self = gm_user_data_of(problem);
+    const struct gm_user_event *formulas = event_of(problem, event);
+    struct gm_late_tape *tape = &self->changes[event];
+    const bool breaks = event >= self->model->event_count;
+    double *outcome = breaks ? NULL : malloc((tape->count + 1) * sizeof *outcome);
     if (outcome && tape->count > 0) {
         gm_late_tape_values(tape, look, outcome, 1);
     }
-    return outcome;
-}
-
-static bool happens(const struct gm_problem *problem, size_t event, const double *look)
-{
-    const bool changes = event < gm_user_data_of(problem)->model->event_count;
-    double *outcome = changes ? outcome_of(problem, event, look) : NULL;
-    bool all = outcome || !changes;
-    for (size_t i = 0; all && i < event_of(problem, event)->conditions; i++) {
+    bool all = outcome || breaks;
+    for (size_t i = 0; i < formulas->conditions && all; i++) {
         all = outcome[i] > 0;
+    }
+    for (size_t c = 0; c < problem->n && y; c++) {
+        y[c] = look[c];
+    }
+    for (size_t i = 0; i < formulas->changed && y; i++) {
+        y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
     }
     free(outcome);
     return all;
@@ -129,7 +128,7 @@ static bool open_saltation(const struct gm_problem *problem, const struct gm_pro
         gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
     } else {
         frozen_values(problem, &self->event_slopes[event],
-                      gm_user_data_of(motion)->values + self->model->system->variable_count, before, 1,
+                      gm_user_data_of(motion)->values + self->model->system->variable_count, before,
                       saltation->slopes);
     }
     field_at(motion, before, saltation->before);
@@ -201,17 +200,6 @@ static void carry_within(const struct gm_problem *problem, const struct gm_event
     }
 }
 
-static void change(const struct gm_problem *problem, size_t event, const double *look, double *y)
-{
-    const struct gm_user_event *formulas = event_of(problem, event);
-    double *outcome = outcome_of(problem, event, look);
-    memcpy(y, look, problem->n * sizeof *y);
-    for (size_t i = 0; i < formulas->changed; i++) {
-        y[formulas->components[i]] = outcome ? outcome[formulas->conditions + i] : NAN;
-    }
-    free(outcome);
-}
-
 static void conserved(const struct gm_problem *problem, const double *look, double *quantities)
 {
     const struct gm_user_data *self = gm_user_data_of(problem);
@@ -227,19 +215,17 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
 /* ---- opening ---- */
 
 /* Names the tapes of located breaks. */
-static void open_breaks(struct gm_user_data *self, const char **names)
+static void open_breaks(struct gm_user_data *self, const char **names, enum gm_event_form *forms)
 {
     const struct gm_user_frozen *frozen = self->model->frozen;
     const struct gm_formula *graph = &frozen->system.graph;
     const size_t first = self->model->event_count, inputs = frozen->system.variable_count;
     const char **surfaces = gm_arena_take(self->arena, frozen->count, sizeof *surfaces);
-    bool *whole = gm_arena_take(self->arena, frozen->count, sizeof *whole);
     self->events.surfaces = surfaces;
-    self->events.whole = whole;
     for (size_t i = 0; i < frozen->count; i++) {
         const struct gm_user_event *event = &frozen->events[i];
         names[first + i] = "";
-        whole[i] = frozen->list[i].whole;
+        forms[first + i] = frozen->list[i].whole ? GM_AT_WHOLE : GM_AT_ZERO;
         surfaces[i] = frozen->list[i].text;
         self->event_slopes[first + i] =
             (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, NULL, NULL};
@@ -262,6 +248,7 @@ void gm_user_events_open(struct gm_problem *problem)
     }
     const char **names = gm_arena_take(self->arena, count, sizeof *names);
     bool *ends = gm_arena_take(self->arena, count, sizeof *ends);
+    enum gm_event_form *forms = gm_arena_take(self->arena, count, sizeof *forms);
     gm_node_id *booked = gm_arena_take(self->arena, system->item_count + 1, sizeof *booked);
     size_t quantities = 0;
     self->changes = gm_arena_take(self->arena, count, sizeof *self->changes);
@@ -270,20 +257,21 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .breaks = breaks,
                                       .names = names,
                                       .ends = ends,
+                                      .forms = forms,
                                       .values = values,
-                                      .happens = happens,
                                       .change = change,
                                       .rate = rate,
                                       .carry = carry,
                                       .carry_within = carry_within,
                                       .conserved = conserved};
     if (breaks > 0) {
-        open_breaks(self, names);
+        open_breaks(self, names, forms);
     }
     for (size_t i = 0; i < written; i++) {
         const struct gm_user_event *event = &model->events[i];
         names[i] = event->item->name;
         ends[i] = event->item->ends;
+        forms[i] = event->form;
         self->events.ends_runs |= ends[i];
         self->events.changes |= !ends[i];
         gm_user_compile(self, &self->changes[i], event->nodes, event->conditions + event->changed, inputs);

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "core/events.h"
 #include "core/expression/derivative.h"
 #include "core/model/breaks.h"
 #include "core/model/facts.h"
@@ -52,6 +53,8 @@ struct gm_user_bracket {
 /* An event, as formulas. */
 struct gm_user_event {
     const struct gm_system_item *item;
+    enum gm_event_form form;
+    gm_node_id surface;         /* g */
     size_t conditions, changed; /* numbers of these */
     size_t *components;         /* [changed] */
     gm_node_id *nodes;          /* conditions, then new values of these components */

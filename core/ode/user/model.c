@@ -167,6 +167,38 @@ static void open_one_form(struct gm_arena *arena, const struct opening *opening)
     }
 }
 
+/* Returns g of an event. mod(a, b) = h, if h does not change, happens where (a - h)/b is a whole number. */
+static gm_node_id surface_of(struct gm_user_system *system, gm_node_id g, const bool *marked,
+                             enum gm_event_form *form)
+{
+    struct gm_formula *graph = &system->graph;
+    const struct gm_node node = graph->nodes[g];
+    const bool differs = node.operation == GM_OPERATION_SUBTRACT &&
+                         !gm_formula_holds(graph, node.b, marked, system->variable_count);
+    const struct gm_node mod = graph->nodes[differs ? node.a : g];
+    if (mod.operation != GM_OPERATION_MOD) {
+        return g;
+    }
+    *form = GM_AT_WHOLE;
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
+                            differs ? gm_formula_apply(graph, GM_OPERATION_SUBTRACT, mod.a, node.b) : mod.a,
+                            mod.b);
+}
+
+/* Returns true if a function with these slopes, row 0, changes only by jumps, its own ones or those of components without a
+   rate at events. */
+static bool only_jumps(const struct gm_user_system *system, const struct gm_sparse *slopes)
+{
+    bool jumps = true;
+    for (size_t i = 0; i < slopes->count; i++) {
+        const size_t c = slopes->entries[i].column;
+        const bool steady =
+            c < system->n && system->kind == GM_RATES && gm_is_constant(&system->graph, system->rates[c], 0);
+        jumps &= slopes->entries[i].row > 0 || steady;
+    }
+    return jumps;
+}
+
 static void open_event(struct gm_arena *arena, const struct opening *opening,
                        const struct gm_system_item *item, struct gm_user_event *event)
 {
@@ -176,9 +208,10 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     gm_node_id *nodes = gm_arena_take(arena, n + 1, sizeof *nodes);
     memset(marked, true, (n + 1) * sizeof *marked);
     event->item = item;
+    event->form = GM_AT_ZERO;
     event->conditions = item->count - first;
     event->components = gm_arena_take(arena, n + 1, sizeof *event->components);
-    nodes[0] = item->nodes[0];
+    nodes[0] = surface_of(system, item->nodes[0], marked, &event->form);
     for (size_t c = 0; c < n && !item->ends; c++) {
         const struct gm_node *node = &system->graph.nodes[item->nodes[1 + c]];
         if (node->operation != GM_VARIABLE || node->a != c) {
@@ -192,6 +225,8 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->slopes =
         gm_sparse_jacobian(arena, &system->graph, nodes, 1 + event->changed, marked, system->variable_count);
     event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
+    event->form = event->form == GM_AT_ZERO && only_jumps(system, &event->slopes) ? GM_AT_JUMP : event->form;
+    event->surface = nodes[0];
 }
 
 static void open_events(struct gm_arena *arena, const struct opening *opening)
@@ -203,8 +238,9 @@ static void open_events(struct gm_arena *arena, const struct opening *opening)
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP) {
-            model->surfaces[model->event_count] = item->nodes[0];
-            open_event(arena, opening, item, &model->events[model->event_count++]);
+            open_event(arena, opening, item, &model->events[model->event_count]);
+            model->surfaces[model->event_count] = model->events[model->event_count].surface;
+            model->event_count++;
         }
     }
 }

@@ -568,38 +568,27 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
     return good;
 }
 
-/* Returns problem number i, as the last one in use, with the loops that it may take. */
-static const struct gm_problem *latest(const struct gm_problem *problem, struct frozen_problems *kept,
-                                       size_t i)
+static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
 {
     const struct gm_loops *loops = gm_user_data_of(problem)->frozen_loops;
+    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
+    struct frozen_problems *kept = *frozen = *frozen ? *frozen : calloc(1, sizeof *kept);
+    size_t i = 0;
+    while (kept && i < KEPT && (kept->list[i].n == 0 || memcmp(kept->modes[i], modes, size) != 0)) {
+        i++;
+    }
+    if (kept && i == KEPT) {
+        i = kept->next = (kept->next + 1 + ((kept->next + 1) % KEPT == kept->latest)) % KEPT; /* not in use */
+        gm_user_problem_close(&kept->list[i]);
+        memcpy(kept->modes[i], modes, size);
+    }
+    if (!kept || (kept->list[i].n == 0 && !open_frozen(problem, modes, &kept->list[i]))) {
+        return NULL;
+    }
     if (gm_user_data_of(&kept->list[i])->taken != loops) {
         gm_user_problem_take(&kept->list[i], loops);
     }
     return &kept->list[kept->latest = i];
-}
-
-static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
-{
-    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
-    struct frozen_problems *kept = *frozen = *frozen ? *frozen : calloc(1, sizeof *kept);
-    for (size_t i = 0; kept && i < KEPT; i++) {
-        if (kept->list[i].n > 0 && memcmp(kept->modes[i], modes, size) == 0) {
-            return latest(problem, kept, i);
-        }
-    }
-    if (!kept) {
-        return NULL;
-    }
-    kept->next =
-        (kept->next + 1 + ((kept->next + 1) % KEPT == kept->latest)) % KEPT; /* the latest is in use */
-    struct gm_problem *opened = &kept->list[kept->next];
-    gm_user_problem_close(opened);
-    if (!open_frozen(problem, modes, opened)) {
-        return NULL;
-    }
-    memcpy(kept->modes[kept->next], modes, size);
-    return latest(problem, kept, kept->next);
 }
 
 static bool watches(const struct gm_problem *motion)

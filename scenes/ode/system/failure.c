@@ -181,6 +181,31 @@ static void tell_monitor(const struct failed *failed, const double *slope, doubl
     }
 }
 
+/* Writes the event whose change has no value, with its place; false without one. */
+static bool tell_event(const struct failed *failed)
+{
+    const struct gm_user_system *system = &failed->scene->system;
+    const struct gm_run *run = failed->view->run;
+    const struct gm_events *events = failed->view->problem->events;
+    const struct gm_system_item *item = system->items;
+    size_t line, column;
+    if (!events || run->turned >= events->count - events->breaks) {
+        return false;
+    }
+    for (size_t passed = 0; passed <= run->turned; item++) {
+        passed += item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP;
+    }
+    item--;
+    snprintf(failed->text, failed->size, "the event %.40s%sat t = %.6g has no value", item->name,
+             item->name[0] ? " " : "", run->turned_at);
+    if (!system->typed) {
+        const size_t length = strlen(failed->text);
+        gm_text_place(system->source, item->place, &line, &column);
+        snprintf(failed->text + length, failed->size - length, " (line %zu, column %zu)", line, column);
+    }
+    return true;
+}
+
 /* Writes if the energy at rest, which decides the step size, is not negative. */
 static void tell_rest(const struct failed *failed, const double *slope, double *ahead)
 {
@@ -255,7 +280,7 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     const size_t total = problem->n * problem->m;
     double *slope = malloc(3 * total * sizeof *slope);
     text[0] = '\0';
-    if (!slope || view->run->stopped) {
+    if (!slope || view->run->stopped || tell_event(&failed)) {
         tell_stop(&failed);
         free(slope);
         return;
