@@ -87,6 +87,8 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
         if (status != GM_OK) {
             progress->done = done;
             progress->status = status;
+        } else if (task->trace) {
+            memcpy(task->trace + (size_t)done * active, tile->y, active * sizeof *tile->y);
         }
     }
 }
@@ -96,7 +98,7 @@ struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row,
     const struct tiles *tiles = task->workspace;
     const struct gm_loops *loops = gm_ode_of(task->problem)->loops[gm_isa_best()];
     const size_t n = task->problem->n, m = task->problem->m;
-    struct gm_progress progress = {.done = task->steps, .status = GM_OK};
+    struct gm_progress progress = {.done = task->steps, .status = GM_OK, .traced = task->trace != NULL};
     const bool whole = tiles->members == m;
     for (size_t first = 0; first < m; first += tiles->members) {
         const size_t count = m - first < tiles->members ? m - first : tiles->members;
