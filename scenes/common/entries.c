@@ -335,7 +335,7 @@ static void follow_section(struct gm_entries *entries, const struct gm_track *tr
     }
 }
 
-/* Returns the first step from step k on at which an entry is due, trace->count + 1 if there is none: what is due then is
+/* Returns the first step from step k on at which an entry is due, trace->count + 1 without one: what is due then is
    due at all later ones. */
 static int64_t next_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                         const struct gm_trace *trace, int64_t k)

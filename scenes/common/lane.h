@@ -21,7 +21,7 @@ struct gm_switch {
     double t;
 };
 
-/* Sees every step that is followed: those of lane->behind.trace if lane->behind.traced, else the view's. */
+/* Sees every step that is followed: the steps of lane->behind.trace if lane->behind.traced, else the step of the view. */
 struct gm_lane_watch {
     void (*see)(void *data, const struct gm_view *view);
     void *data;

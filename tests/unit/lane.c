@@ -428,7 +428,7 @@ static void tracks_know_no_calls(void **unused)
     static const char *const runs[] = {
         "henon-heiles scheme=verlet",
         "henon-heiles scheme=gauss4 dt=.3",
-        "henon-heiles scheme=stoermer-verlet",
+        "henon-heiles scheme=yoshida4",
         "henon-heiles scheme=rk4 dt=2", /* it blows up */
         "lorenz scheme=rk4",
         "lorenz scheme=kahan2",
