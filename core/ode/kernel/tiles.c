@@ -79,6 +79,7 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
                     struct gm_progress *progress)
 {
     const size_t active = gm_tile_components(task->problem) * tile->members;
+    double *trace = task->trace;
     for (int64_t done = 0; done < progress->done; done++) {
         enum gm_status status = step(task, tile, progress);
         if (status == GM_OK && !are_within(tile->y, active, task->limit)) {
@@ -87,8 +88,9 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
         if (status != GM_OK) {
             progress->done = done;
             progress->status = status;
-        } else if (task->trace) {
-            memcpy(task->trace + (size_t)done * active, tile->y, active * sizeof *tile->y);
+        } else if (__builtin_expect(trace != NULL, false)) {
+            memcpy(trace, tile->y, active * sizeof *tile->y);
+            trace += active;
         }
     }
 }
