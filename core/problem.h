@@ -59,6 +59,8 @@ struct gm_task {
     double *carry_out;
     const double *memory; /* memory of the scheme, laid out by its family; NULL: none */
     double *memory_out;
+    /* Loops that can (gm_progress.traced) write the state after each step, n numbers of one member; NULL: none does. */
+    double *trace;
     double t;     /* the current time, t0 + n dt of this segment */
     double until; /* end of an adaptive scheme, which stops at the first step to reach it */
     double t0;
@@ -78,6 +80,7 @@ struct gm_progress {
     unsigned long own_steps, rejected; /* accepted and rejected steps of step size control by a tolerance */
     struct gm_unsolved unsolved;       /* reason of a step without convergence, if the family has one */
     double t;                          /* the time reached by adaptive schemes */
+    bool traced;                       /* the states of `done` steps are in task.trace */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

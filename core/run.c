@@ -141,6 +141,7 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_
         .memory_out = remembers ? out + count + carried : NULL,
         .t = run->t,
         .until = INFINITY,
+        .trace = run->trace,
         .t0 = run->t0,
         .n = run->n,
         .workspace = run->workspace,
@@ -405,6 +406,7 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
         }
     }
     take_steps(run, &progress, in_place);
+    run->traced = progress.traced;
     return run->status;
 }
 
@@ -616,10 +618,39 @@ const double *gm_run_before(const struct gm_run *run)
     return half(run, 1 - run->current);
 }
 
-bool gm_run_part(const struct gm_run *run, double fraction, double *y)
+bool gm_run_part(const struct gm_run *run, const double *from, double t, double fraction, double *y)
 {
-    const double begin = run->t0 + (double)(run->n - 1) * run->dt;
-    return !isnan(make_part((void *)run, gm_run_before(run), begin, fraction * run->dt, y, false));
+    return !isnan(make_part((void *)run, from, t, fraction * run->dt, y, false));
+}
+
+bool gm_run_is_traced(const struct gm_run *run)
+{
+    return run->problem->m == 1 && run->problem->passive == 0 && !run->problem->events &&
+           carry_count(run) == 0 && gm_scheme_has_one_step(run->scheme);
+}
+
+void gm_run_trace(struct gm_run *run, int64_t steps, struct gm_trace *trace)
+{
+    const size_t n = run->problem->n;
+    const int64_t most = steps < trace->room ? steps : trace->room, before = run->steps;
+    memcpy(trace->states, gm_run_state(run), n * sizeof(double));
+    trace->times[0] = run->t;
+    trace->count = 0;
+    run->traced = false;
+    /* the first step shows if the scheme's loop traces */
+    while (trace->count < most && run->status == GM_OK) {
+        run->trace = trace->states + (size_t)(trace->count + 1) * n;
+        make_steps(run, run->traced ? most - trace->count : 1, INFINITY, false);
+        if (!run->traced && run->steps - before > trace->count) {
+            memcpy(run->trace, gm_run_state(run), n * sizeof(double));
+        }
+        trace->count = run->steps - before;
+    }
+    run->trace = NULL;
+    run->traced = false; /* snapshots do not show how steps were made */
+    for (int64_t k = 1; k <= trace->count; k++) {
+        trace->times[k] = run->t0 + (double)(run->n - trace->count + k) * run->dt;
+    }
 }
 
 int64_t gm_run_steps_at(const struct gm_run *run, double t)
@@ -763,6 +794,7 @@ bool gm_run_load(struct gm_run *run, const void *snapshot)
     then.ends = run->ends;
     then.shortens = run->shortens;
     then.witness = run->witness;
+    then.trace = run->trace;
     then.across = false;
     then.event_scratch = run->event_scratch;
     then.motion = run->motion;

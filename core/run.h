@@ -35,6 +35,8 @@ struct gm_run {
     const struct gm_problem *motion; /* of which steps are made: the problem, or with frozen switches */
     bool across;      /* breaks are not located in this step, which a frozen formula does not make */
     void *frozen;     /* keeps such problems; NULL: none, or breaks are not located */
+    double *trace;    /* gm_task.trace of the steps that are being made; else NULL */
+    bool traced;      /* the last steps are in it */
     size_t turned;    /* the event or break at which the run has failed; SIZE_MAX: none */
     double turned_at; /* the value of its g; after GM_BLOW_UP its time */
 };
@@ -74,9 +76,22 @@ enum gm_status gm_run_advance(struct gm_run *run, int64_t steps);
 bool gm_run_repeats(const struct gm_run *run);
 /* The state before the last step; valid as gm_run_state is. */
 const double *gm_run_before(const struct gm_run *run);
-/* Writes the state after this fraction of the last step; the run does not change. y has room for 2 * n * m
-   doubles (the state is the first half), aligned for 128 bytes. Returns false if the shorter step fails. */
-bool gm_run_part(const struct gm_run *run, double fraction, double *y);
+/* Writes the state after this fraction of a step that begins at time t in the state `from`, that of gm_run_before or of
+   a trace; the run does not change. y has room for 2 * n * m doubles (the state is the first half), aligned for 128
+   bytes. Returns false if the shorter step fails. */
+bool gm_run_part(const struct gm_run *run, const double *from, double t, double fraction, double *y);
+
+/* Steps that were made together: row 0 is the state before them, row k the state after the k-th, n numbers each. */
+struct gm_trace {
+    int64_t room, count; /* the most steps, and those made */
+    double *states;      /* [(room + 1) * n] */
+    double *times;       /* [room + 1] */
+};
+/* Returns true if the steps of a run can be traced: they have one length, and follow from the state of one member without
+   events. */
+bool gm_run_is_traced(const struct gm_run *run);
+/* Makes up to `steps` steps, trace->room at most, as gm_run_advance does, and traces them. */
+void gm_run_trace(struct gm_run *run, int64_t steps, struct gm_trace *trace);
 /* The number of all steps of a run at the time t, rounded; for an adaptive scheme, more than it will ever
    make. */
 int64_t gm_run_steps_at(const struct gm_run *run, double t);

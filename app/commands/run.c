@@ -455,7 +455,9 @@ static bool make_steps(struct outcome *outcome, int64_t stop, char *message)
     const int64_t next = outcome->maxima ? run->steps + 1 : row;
     const double before = run->t;
     const int64_t steps = run->steps;
-    const bool record = outputs->tracks || has_portrait(outcome->drive.lane);
+    /* a lane that follows each step takes it into its tracks without a record of all observables */
+    const bool record =
+        (outputs->tracks || has_portrait(outcome->drive.lane)) && outcome->drive.lane->scene->follow != 1;
     if (!gm_drive_to(&outcome->drive, next < stop ? next : stop, record, message)) {
         return false;
     }

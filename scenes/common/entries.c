@@ -10,6 +10,15 @@
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
 
+struct gm_view gm_view_along(const struct gm_view *view, const struct gm_trace *trace, int64_t k)
+{
+    struct gm_view there = *view;
+    there.state = trace->states + (size_t)k * view->problem->n;
+    there.t = trace->times[k];
+    there.steps = view->steps - trace->count + k;
+    return there;
+}
+
 /* ---- entries ---- */
 
 size_t gm_active_count(const struct gm_problem *problem)
@@ -21,6 +30,9 @@ size_t gm_active_count(const struct gm_problem *problem)
 static bool is_before(const struct gm_behind *behind, const struct gm_view *view)
 {
     const struct gm_run *run = view->run;
+    if (behind->traced) {
+        return gm_scheme_repeats_steps(run->scheme);
+    }
     return behind->t != view->t && run->problem->passive == 0 && gm_run_repeats(run) &&
            memcmp(behind->state, gm_run_before(run), gm_active_count(run->problem) * sizeof *behind->state) ==
                0;
@@ -34,6 +46,19 @@ static void forget_before(struct gm_entries *entries)
     }
 }
 
+/* Room for steps that are made together: enough that what each call costs is little, and few enough for the cache. */
+static void open_trace(struct gm_arena *arena, struct gm_trace *trace, const struct gm_problem *problem)
+{
+    enum { TOGETHER = 128, NUMBERS = 1 << 14 };
+    const size_t most = NUMBERS / (problem->n + 1);
+    trace->room = most < 1 ? 1 : most < TOGETHER ? (int64_t)most : TOGETHER;
+    if (problem->m == 1) {
+        trace->states =
+            gm_arena_take(arena, (size_t)(trace->room + 1) * (problem->n + 2), sizeof *trace->states);
+        trace->times = trace->states + (size_t)(trace->room + 1) * problem->n;
+    }
+}
+
 void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
                      const struct gm_view *view, struct gm_behind *behind)
 {
@@ -41,6 +66,7 @@ void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const s
     if (track->section && !behind->state) {
         /* the last state, slopes at both ends, an intermediate state */
         behind->state = gm_arena_take(arena, 4 * gm_active_count(view->problem), sizeof *behind->state);
+        open_trace(arena, &behind->trace, view->problem);
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
     entries->times = gm_arena_take_unset(arena, track->bound, sizeof *entries->times);
@@ -89,7 +115,7 @@ static void forget(struct gm_entries *entries)
 static void add_entry(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
 {
     entries->times[entries->count] = view->t;
-    entries->steps[entries->count] = view->run->steps;
+    entries->steps[entries->count] = view->steps;
     track->record(view, entry_values(entries, entries->count));
     entries->kept = ++entries->count;
 }
@@ -130,7 +156,10 @@ static double value_after(void *data, double s)
     crossing->there->t = behind->t + s * h;
     if (crossing->storage) {
         crossing->there->state = crossing->storage;
-        return gm_run_part(view->run, s, crossing->storage) ? crossing->track->section(crossing->there) : NAN;
+        const double *from = behind->traced ? behind->state : gm_run_before(view->run);
+        return gm_run_part(view->run, from, behind->t, s, crossing->storage)
+                   ? crossing->track->section(crossing->there)
+                   : NAN;
     }
     const size_t active = gm_active_count(view->problem),
                  stride = crossing->track->each ? view->problem->m : 1;
@@ -255,9 +284,99 @@ static void make_room(struct gm_entries *entries, const struct gm_track *track)
     }
 }
 
-void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                       const struct gm_behind *behind)
+/* ---- entries of steps that were made together ---- */
+
+/* Makes the entries of a section. Only steps in which its sign changes are looked at one by one. */
+static void follow_section(struct gm_entries *entries, const struct gm_track *track,
+                           const struct gm_view *view, struct gm_behind *behind)
 {
+    const struct gm_trace *trace = &behind->trace;
+    double *values = trace->times + trace->room + 1;
+    for (int64_t k = 0; k < trace->count && !track->sections; k++) {
+        const struct gm_view there = gm_view_along(view, trace, k + 1);
+        values[k] = track->section(&there);
+    }
+    if (track->sections) {
+        track->sections(view, trace, values);
+    }
+    for (int64_t k = 0; k < trace->count; k++) {
+        const double before = entries->before[0];
+        if ((before < 0 && values[k] < 0) || (before >= 0 && values[k] >= 0)) {
+            entries->before[0] = values[k];
+            continue;
+        }
+        const struct gm_view begin = gm_view_along(view, trace, k), end = gm_view_along(view, trace, k + 1);
+        gm_behind_note(behind, &begin);
+        record_crossings(entries, track, &end, behind);
+    }
+}
+
+/* Returns the first step from step k on at which an entry is due, trace->count + 1 without one: what is due then is
+   due at all later ones. */
+static int64_t next_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                        const struct gm_trace *trace, int64_t k)
+{
+    int64_t low = k - 1, high = trace->count, stride = 1;
+    if (k > high || !is_due(entries, track, view)) {
+        return trace->count + 1;
+    }
+    while (high - low > 1) {
+        const int64_t middle = low + stride < high ? low + stride : (low + high) / 2;
+        const struct gm_view there = gm_view_along(view, trace, middle);
+        if (is_due(entries, track, &there)) {
+            high = middle;
+        } else {
+            low = middle;
+            stride *= 2;
+        }
+    }
+    return high;
+}
+
+/* Makes entries that are the states of `count` steps from step k on. */
+static void add_states(struct gm_entries *entries, const struct gm_view *view, const struct gm_trace *trace,
+                       int64_t k, size_t count)
+{
+    const size_t at = entries->count, n = view->problem->n;
+    memcpy(entries->times + at, trace->times + k, count * sizeof *entries->times);
+    memcpy(entry_values(entries, at), trace->states + (size_t)k * n, count * n * sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        entries->steps[at + i] = view->steps - trace->count + k + (int64_t)i;
+    }
+    entries->kept = entries->count += count;
+}
+
+static void record_together(struct gm_entries *entries, const struct gm_track *track,
+                            const struct gm_view *view, struct gm_behind *behind)
+{
+    const struct gm_trace *trace = &behind->trace;
+    const bool each = track->is_state && !track->interval && entries->width == view->problem->n;
+    entries->kept = entries->count;
+    if (track->section) {
+        follow_section(entries, track, view, behind);
+        return;
+    }
+    for (int64_t k = 1; (k = next_due(entries, track, view, trace, k)) <= trace->count; k++) {
+        make_room(entries, track);
+        if (each) {
+            const size_t rest = (size_t)(trace->count + 1 - k), room = track->bound - entries->count,
+                         count = rest < room ? rest : room;
+            add_states(entries, view, trace, k, count);
+            k += (int64_t)count - 1;
+        } else {
+            const struct gm_view there = gm_view_along(view, trace, k);
+            add_entry(entries, track, &there);
+        }
+    }
+}
+
+void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                       struct gm_behind *behind)
+{
+    if (behind->traced) {
+        record_together(entries, track, view, behind);
+        return;
+    }
     if (!track->section && !track->recent && view->dt < 0 && view->t >= view->t0) {
         unwind(entries, view->t);
         return;
@@ -275,8 +394,7 @@ void gm_entries_record(struct gm_entries *entries, const struct gm_track *track,
 }
 
 void gm_entries_event(struct gm_entries *entries, const struct gm_track *track, size_t event,
-                      const struct gm_view *before, const struct gm_view *after,
-                      const struct gm_behind *behind)
+                      const struct gm_view *before, const struct gm_view *after, struct gm_behind *behind)
 {
     if (track->section && track->at_event && track->at_event(after, event)) {
         entries->kept = entries->count;

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "core/arena.h"
+#include "core/run.h"
 #include "scenes/common/scene.h"
 
 /* The entries that a track has recorded during a run. */
@@ -28,7 +29,12 @@ struct gm_entries { /* the record of one track */
 struct gm_behind {
     double *state; /* active components, then room for 3 times as many; NULL: no sections */
     double t;
+    struct gm_trace trace; /* steps that were made together */
+    bool traced;           /* they are not recorded yet; the state is that before them */
 };
+
+/* Returns the view after step k of a trace, whose last step is that of `view`. */
+struct gm_view gm_view_along(const struct gm_view *view, const struct gm_trace *trace, int64_t k);
 
 /* Takes the memory of a record, and of `behind` with the first section; in a body of the arena. */
 void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const struct gm_track *track,
@@ -37,13 +43,13 @@ void gm_entries_open(struct gm_arena *arena, struct gm_entries *entries, const s
 /* Returns the number of active components of a state, n * m without the passive block. */
 size_t gm_active_count(const struct gm_problem *problem);
 
-/* Makes an entry if one is due now. */
+/* Makes an entry if one is due now; if behind->traced, all entries that are due in the steps of behind->trace, the last of
+   which ended in `view`. */
 void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
-                       const struct gm_behind *behind);
+                       struct gm_behind *behind);
 /* Makes the entries of an event, which changed the state `before` to `after`. */
 void gm_entries_event(struct gm_entries *entries, const struct gm_track *track, size_t event,
-                      const struct gm_view *before, const struct gm_view *after,
-                      const struct gm_behind *behind);
+                      const struct gm_view *before, const struct gm_view *after, struct gm_behind *behind);
 /* Copies the current state to `behind`, after all tracks. */
 void gm_behind_note(struct gm_behind *behind, const struct gm_view *view);
 

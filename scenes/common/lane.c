@@ -23,6 +23,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .t0 = lane->t0,
         .t = lane->run->t,
         .dt = lane->run->dt,
+        .steps = lane->run->steps,
         .memory = gm_run_memory(lane->run),
         .tracks = lane->entries,
         .run = lane->run,
@@ -211,19 +212,23 @@ void gm_lane_note(const struct gm_lane *lane, char *sentence)
 
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
 {
-    for (size_t i = 0; i < lane->scene->track_count; i++) {
+    for (size_t i = 0; i < lane->scene->track_count && !lane->unfollowed; i++) {
         gm_entries_record(&lane->entries[i], &lane->scene->tracks[i], view, &lane->behind);
+    }
+    if (lane->watch.see) {
+        lane->watch.see(lane->watch.data, view);
     }
     gm_behind_note(&lane->behind, view);
 }
 
-/* Follows angles: they are unwrapped from their last value. */
-static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
+/* Follows angles, in all steps of a trace or, if that is NULL, in the last one: they are unwrapped from their last value. */
+static void follow_angles(struct gm_lane *lane, const struct gm_view *view, const struct gm_trace *trace)
 {
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         const struct gm_observable *observable = &lane->scene->observables[i];
-        if (observable->period > 0) {
-            const double angle = observe(observable, view, lane->angles[i]);
+        for (int64_t k = 0; observable->period > 0 && k < (trace ? trace->count : 1); k++) {
+            const struct gm_view there = trace ? gm_view_along(view, trace, k + 1) : *view;
+            const double angle = observe(observable, &there, lane->angles[i]);
             lane->angles[i] = isfinite(angle) ? angle : lane->angles[i];
         }
     }
@@ -236,14 +241,33 @@ static void follow(struct gm_lane *lane)
     const unsigned long refusals = gm_memory_refusals();
     const struct gm_view view = gm_lane_view(lane);
     lane->followed = lane->run->steps;
-    follow_angles(lane, &view);
+    follow_angles(lane, &view, lane->behind.traced ? &lane->behind.trace : NULL);
     record_tracks(lane, &view);
     settle(lane, refusals);
 }
 
+/* Returns true if the lane's next steps can be followed together: time runs forwards, and the last one was followed. */
+static bool is_traced(const struct gm_lane *lane)
+{
+    const struct gm_run *run = lane->run;
+    const struct gm_behind *behind = &lane->behind;
+    return lane->scene->follow == 1 && behind->trace.states && gm_run_is_traced(run) && run->dt > 0 &&
+           run->t >= lane->t0 && lane->followed == run->steps && behind->t == run->t &&
+           memcmp(behind->state, gm_run_state(run), run->problem->n * sizeof *behind->state) == 0;
+}
+
+/* Makes steps together, and follows each of them. */
+static void follow_together(struct gm_lane *lane, int64_t steps)
+{
+    gm_run_trace(lane->run, steps, &lane->behind.trace);
+    lane->behind.traced = true;
+    follow(lane);
+    lane->behind.traced = false;
+}
+
 enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
 {
-    if (lane->scene->follow == 0 || lane->unfollowed) {
+    if (lane->scene->follow == 0 || (lane->unfollowed && !lane->watch.see)) {
         return gm_run_to(lane->run, steps, until);
     }
     /* one adaptive step may be as long as many others */
@@ -253,6 +277,10 @@ enum gm_status gm_lane_to(struct gm_lane *lane, int64_t steps, double until)
     }
     while (gm_run_goes_on(lane->run, steps, until)) {
         const int64_t due = lane->followed + most;
+        if (is_traced(lane)) {
+            follow_together(lane, steps - lane->run->steps);
+            continue;
+        }
         gm_run_to(lane->run, due < steps ? due : steps, until);
         if (lane->run->steps >= due || lane->run->status != GM_OK || lane->run->stopped) {
             follow(lane);
@@ -318,7 +346,7 @@ void gm_lane_record(struct gm_lane *lane)
     const unsigned long refusals = gm_memory_refusals();
     const struct gm_view view = gm_lane_view(lane);
     lane->followed = lane->run->steps;
-    follow_angles(lane, &view);
+    follow_angles(lane, &view, NULL);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }

@@ -21,6 +21,12 @@ struct gm_switch {
     double t;
 };
 
+/* Sees every step that is followed: the steps of lane->behind.trace if lane->behind.traced, else the step of the view. */
+struct gm_lane_watch {
+    void (*see)(void *data, const struct gm_view *view);
+    void *data;
+};
+
 struct gm_lane {
     struct gm_arena *arena; /* holds all of this */
     struct gm_shown shown;  /* `named`, with the schemes of now and before: "Verlet, after RK4" */
@@ -43,9 +49,10 @@ struct gm_lane {
     double *angles;               /* last value of each observable, to unwrap angles */
     struct gm_worked *worked;     /* [GM_WORKED] */
     double *initials, *cancelled; /* per observable, as in struct gm_view; one block of memory */
+    struct gm_lane_watch watch;   /* set by callers who follow a section of their own */
     struct gm_behind behind;      /* state for sections */
     int64_t followed;             /* number of steps when it was last followed */
-    bool unfollowed;              /* intermediate steps are not needed: gm_lane_to makes all steps at once */
+    bool unfollowed; /* tracks need no intermediate steps: without a watch gm_lane_to makes all at once */
 };
 
 /* Opens a lane at its start, with the start recorded. Returns NULL with a sentence (GM_MESSAGE bytes) if

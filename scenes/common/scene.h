@@ -39,6 +39,7 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the current state */
     double t0, t, dt;
+    int64_t steps;                          /* all steps up to t */
     const double *memory;                   /* the scheme's memory; NULL if it has none */
     const struct gm_entries *tracks;        /* the scene's tracks so far; NULL while a lane is opened */
     const struct gm_run *run;               /* run, for diagnostics of the scheme */
@@ -90,6 +91,8 @@ struct gm_track {
     size_t (*width)(const struct gm_view *view);   /* numbers per entry */
     double (*interval)(const void *parameters);    /* interval of model time; NULL: each observed step */
     double (*section)(const struct gm_view *view); /* reads active components only */
+    /* Writes the section's values after each of trace->count steps, the last of which is the view's. NULL: by `section` */
+    void (*sections)(const struct gm_view *view, const struct gm_trace *trace, double *values);
     bool (*admits)(const struct gm_view *view);
     /* Returns true if the section is at this event, and nowhere else; NULL: at none. */
     bool (*at_event)(const struct gm_view *view, size_t event);
@@ -98,6 +101,7 @@ struct gm_track {
     bool each;  /* one section per member: these three functions read that of view->member alone */
     size_t bound;
     bool recent;
+    bool is_state; /* of one member, an entry is the first `numbers` components */
     void (*record)(const struct gm_view *view, double *entry);
 };
 

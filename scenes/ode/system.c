@@ -117,6 +117,21 @@ static double section(const struct gm_view *view)
     return system_scene->turns ? gm_sin(values[0] / 2) : values[0];
 }
 
+/* The same for steps that were made together. */
+static void sections(const struct gm_view *view, const struct gm_trace *trace, double *values)
+{
+    const struct gm_system_scene *system_scene = gm_system_scene_of(view);
+    const bool alike = !system_scene->stroboscopic && !system_scene->turns &&
+                       system_scene->where.last_used <= system_scene->system.exact;
+    if (alike) {
+        gm_system_values_along(&system_scene->where, view, trace, values);
+    }
+    for (int64_t k = 0; k < trace->count && !alike; k++) {
+        const struct gm_view there = gm_view_along(view, trace, k + 1);
+        values[k] = section(&there);
+    }
+}
+
 static bool is_admitted(const struct gm_view *view)
 {
     const struct gm_system_scene *system_scene = gm_system_scene_of(view);
@@ -536,10 +551,18 @@ static void make_shows(struct gm_system_scene *system_scene)
 static void make_tracks(struct gm_system_scene *system_scene)
 {
     static const struct gm_track tracks[GM_SYSTEM_TRACKS] = {
-        [GM_TRACK_PAST] =
-            {.key = "past", .interval = step_of, .bound = 8192, .jumps = true, .record = record_state},
-        [GM_TRACK_TRAIL] =
-            {.key = "trail", .bound = 2048, .recent = true, .jumps = true, .record = record_state},
+        [GM_TRACK_PAST] = {.key = "past",
+                           .interval = step_of,
+                           .bound = 8192,
+                           .jumps = true,
+                           .is_state = true,
+                           .record = record_state},
+        [GM_TRACK_TRAIL] = {.key = "trail",
+                            .bound = 2048,
+                            .recent = true,
+                            .jumps = true,
+                            .is_state = true,
+                            .record = record_state},
         [GM_TRACK_SHAPES] = {.key = "shapes",
                              .width = shape_width,
                              .interval = shape_interval,
@@ -553,6 +576,7 @@ static void make_tracks(struct gm_system_scene *system_scene)
         [GM_TRACK_SECTION] = {.key = "section",
                               .numbers = 2,
                               .section = section,
+                              .sections = sections,
                               .admits = is_admitted,
                               .at_event = is_at_event,
                               .again = true,

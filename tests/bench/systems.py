@@ -3,7 +3,7 @@
 """What words of system files and questions about them cost, as medians of rounds in which both sides of a ratio take turns:
 an event that never happens beside stop: of the same formula, located breaks beside ignored ones, if beside a formula of
 as many operations, the spectrum of Lorenz beside three exponents, Newton's method for van der Pol's orbit, and an orbit
-diagram with its picture. No test: nothing fails here.
+diagram with its picture, followed sections beside steps alone, and a map of sections. No test: nothing fails here.
 systems.py GEOMINT [ROUNDS]"""
 import json
 import os
@@ -59,7 +59,18 @@ with tempfile.TemporaryDirectory() as folder:
     lorenz = ("lorenz", "scheme=rk4", "dt=.005", "until=500", "--measure")
     ratio = median_ratio(lambda: whole("run", *lorenz, "lyapunov_spectrum"), lambda: 3 * whole("run", *lorenz, "lyapunov"))
     print(f"a spectrum of Lorenz, beside three exponents: {ratio:.2f} (wanted 1.5)")
+    for scheme in "verlet", "rk4", "gauss4":
+        words = "henon-heiles", f"scheme={scheme}", "steps=1000000"
+        ratio = median_ratio(lambda: stepped(*words, "--save-tracks", "tracks.npz"), lambda: stepped(*words))
+        print(f"Henon-Heiles with its section, beside its steps alone, {scheme}: {ratio:.2f} (wanted 1.3)")
+    with open("far.system", "w") as file:
+        file.write("coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2 + q^4/4\nsection: q - 9 = 0; q, p\nstart: q = 1, p = 0\ndt: 0.1\n")
+    words = "far.system", "scheme=verlet", "steps=1000000"
+    ratio = median_ratio(lambda: stepped(*words, "--save-tracks", "tracks.npz"), lambda: stepped(*words))
+    print(f"a section that is never passed, beside steps alone, verlet: {ratio:.2f} (wanted 1.3)")
     for name, words, wanted in (
+        ("40 000 points of sections of Henon-Heiles", ("sweep", "henon-heiles", "scheme=verlet", "q2=-.1...3:400", "until=800",
+         "--values", "q2:100", "--at", "section", "-o", "map.png"), 0.4),
         ("van der Pol's orbit", ("orbit", "system", "rate=x = y, y = (1 - x^2)*y - x", "x=2", "y=0"), 0.05),
         ("a tree of 400 x 100 with its picture", ("sweep", "system", "rate=x = r*x*(1 - x) - x", "x=.5", "r=2.8..4:400",
          "scheme=explicit-euler", "dt=1", "until=1000", "--values", "x:100", "-o", "tree.png"), 0.5),

@@ -449,6 +449,64 @@ static void lists_know_scenes(void **unused)
     assert_int_equal(gm_scene_number("system"), gm_scene_count());
 }
 
+/* Steps that are followed together leave the tracks that single steps leave, to the bit. */
+static void tracks_know_no_calls(void **unused)
+{
+    (void)unused;
+    static const char *const runs[] = {
+        "henon-heiles scheme=verlet",
+        "henon-heiles scheme=gauss4 dt=.3",
+        "henon-heiles scheme=yoshida4",
+        "henon-heiles scheme=rk4 dt=2", /* it blows up */
+        "lorenz scheme=rk4",
+        "lorenz scheme=kahan2",
+        "lorenz scheme=dopri5",
+        "driven-pendulum scheme=rk4", /* the section is at equal times */
+        "double-pendulum scheme=gauss4",
+        "kepler-space scheme=verlet",
+        "restricted-three-body scheme=rk4",
+        "henon-heiles scheme=verlet compensated=yes",
+        "vortices",
+        "vortices configuration=random count=12 tracers=5",
+    };
+    enum { STEPS = 3000 };
+    static const int64_t calls[] = {1, 2, 700, 701, 1900, STEPS};
+    for (size_t r = 0; r < GM_COUNT(runs); r++) {
+        struct gm_lane *single = open_lane(runs[r], NULL), *together = open_lane(runs[r], NULL);
+        assert_non_null(single);
+        assert_non_null(together);
+        assert_int_equal(single->scene->follow, 1);
+        while (gm_run_goes_on(single->run, STEPS, INFINITY)) {
+            gm_run_to(single->run, single->run->steps + 1, INFINITY);
+            gm_lane_record(single);
+        }
+        for (size_t i = 0; i < GM_COUNT(calls); i++) {
+            gm_lane_to(together, calls[i], INFINITY);
+        }
+        const struct gm_run *one = single->run, *other = together->run;
+        const size_t numbers = single->problem.n * single->problem.m;
+        assert_int_equal(one->steps, other->steps);
+        assert_int_equal(one->status, other->status);
+        assert_int_equal(one->evaluations, other->evaluations);
+        assert_memory_equal(gm_run_state(one), gm_run_state(other), numbers * sizeof(double));
+        assert_memory_equal(single->angles, together->angles,
+                            single->scene->observable_count * sizeof(double));
+        for (size_t i = 0; i < single->scene->track_count; i++) {
+            const struct gm_entries *a = &single->entries[i], *b = &together->entries[i];
+            assert_int_equal(a->count, b->count);
+            assert_int_equal(a->kept, b->kept);
+            assert_int_equal(a->every, b->every);
+            assert_int_equal(a->skipped, b->skipped);
+            assert_memory_equal(a->before, b->before, a->sections * sizeof(double));
+            assert_memory_equal(a->times, b->times, a->count * sizeof(double));
+            assert_memory_equal(a->steps, b->steps, a->count * sizeof *a->steps);
+            assert_memory_equal(a->values, b->values, a->count * a->width * sizeof(double));
+        }
+        gm_lane_close(together);
+        gm_lane_close(single);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -464,6 +522,7 @@ int main(void)
         cmocka_unit_test(crossings_are_found_by_the_scheme),
         cmocka_unit_test(thinned_records_are_shown_at_every_step),
         cmocka_unit_test(stops_together),
+        cmocka_unit_test(tracks_know_no_calls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

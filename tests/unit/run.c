@@ -411,7 +411,7 @@ static void ensembles_are_looked_back_at(void **unused)
         assert_int_equal(gm_run_advance(run, 1), GM_OK);
         assert_true(gm_run_repeats(run));
         assert_memory_equal(gm_run_before(run), before, count * sizeof *before);
-        assert_true(gm_run_part(run, 1, part));
+        assert_true(gm_run_part(run, gm_run_before(run), run->t - run->dt, 1, part));
         assert_memory_equal(gm_run_state(run), part, count * sizeof *part);
         memcpy(before, part, count * sizeof *before);
     }

@@ -269,7 +269,7 @@ struct series {
     size_t count;  /* all of them */
 };
 
-enum { MOST_VALUES = 1000000, PASSAGES = 16 /* in a step */ };
+enum { MOST_VALUES = 1000000, PASSAGES = 256 /* in steps that are made together */ };
 
 static const char *const places[] = {"step", "section", "maximum"};
 
@@ -354,20 +354,19 @@ struct following {
     double last[3][2];     /* t and value of the last steps, the newest first */
     struct gm_track track; /* the section, with its passages since the last step */
     struct gm_entries entries;
-    struct gm_behind behind;
 };
 
 /* gm_event_witness.see: a section may be passed before an event, and be at one. */
 static void see_event(void *data, const struct gm_event_part *part)
 {
     struct following *following = data;
-    struct gm_view before = gm_lane_view(following->drive->lane), after = before;
+    struct gm_lane *lane = following->drive->lane;
+    struct gm_view before = gm_lane_view(lane), after = before;
     before.state = part->before;
     after.state = part->after;
     before.t = after.t = part->before[before.problem->n];
-    gm_entries_event(&following->entries, &following->track, part->event, &before, &after,
-                     &following->behind);
-    gm_behind_note(&following->behind, &after);
+    gm_entries_event(&following->entries, &following->track, part->event, &before, &after, &lane->behind);
+    gm_behind_note(&lane->behind, &after);
 }
 
 static void push(const struct following *following, double t, double value)
@@ -389,6 +388,21 @@ static void push_maximum(const struct following *following)
     }
 }
 
+/* gm_lane_watch.see: takes the passages of the section. */
+static void see_steps(void *data, const struct gm_view *view)
+{
+    struct following *following = data;
+    struct gm_entries *entries = &following->entries;
+    struct gm_view there = *view;
+    gm_entries_record(entries, &following->track, view, &following->drive->lane->behind);
+    for (size_t i = 0; i < entries->count; i++) {
+        there.state = entries->values + i * entries->width;
+        there.t = entries->times[i];
+        push(following, there.t, value_of(following->sweep, &there));
+    }
+    entries->count = 0;
+}
+
 static void follow(struct gm_arena *arena, void *data)
 {
     struct following *following = data;
@@ -396,8 +410,6 @@ static void follow(struct gm_arena *arena, void *data)
     struct gm_lane *lane = following->drive->lane;
     char message[GM_MESSAGE];
     struct gm_track *track = &following->track;
-    struct gm_entries *entries = &following->entries;
-    struct gm_behind *behind = &following->behind;
     const struct gm_view start = gm_lane_view(lane);
     if (sweep->place == GM_AT_SECTION) {
         *track = sweep->scene->tracks[gm_scene_section(sweep->scene)];
@@ -405,12 +417,16 @@ static void follow(struct gm_arena *arena, void *data)
         track->record = record;
         track->each = false;
         track->bound = PASSAGES;
-        gm_entries_open(arena, entries, track, &start, behind);
-        gm_entries_record(entries, track, &start, behind);
-        gm_behind_note(behind, &start);
+        gm_entries_open(arena, &following->entries, track, &start, &lane->behind);
+        gm_entries_record(&following->entries, track, &start, &lane->behind);
         lane->run->witness = (struct gm_event_witness){see_event, following};
-    } else if (sweep->place == GM_AT_STEP && !lane->scheme->family->adaptive &&
-               !(lane->problem.events && lane->problem.events->ends_runs)) {
+        lane->watch = (struct gm_lane_watch){see_steps, following};
+        gm_drive_to(following->drive, following->steps, false, message);
+        lane->watch.see = NULL;
+        return;
+    }
+    if (sweep->place == GM_AT_STEP && !lane->scheme->family->adaptive &&
+        !(lane->problem.events && lane->problem.events->ends_runs)) {
         gm_drive_to(following->drive, following->steps - (int64_t)sweep->kept, false, message);
     }
     following->last[0][0] = lane->run->t;
@@ -419,23 +435,14 @@ static void follow(struct gm_arena *arena, void *data)
            gm_drive_goes_on(following->drive, following->steps) &&
            gm_drive_to(following->drive, lane->run->steps + 1, false, message) &&
            lane->run->status == GM_OK) {
-        struct gm_view view = gm_lane_view(lane);
+        const struct gm_view view = gm_lane_view(lane);
         memmove(following->last[1], following->last[0], 2 * sizeof *following->last);
         following->last[0][0] = view.t;
         following->last[0][1] = value_of(sweep, &view);
         if (sweep->place == GM_AT_STEP) {
             push(following, view.t, following->last[0][1]);
-        } else if (sweep->place == GM_AT_MAXIMUM) {
-            push_maximum(following);
         } else {
-            gm_entries_record(entries, track, &view, behind);
-            gm_behind_note(behind, &view);
-            for (size_t i = 0; i < entries->count; i++) {
-                view.state = entries->values + i * entries->width;
-                view.t = entries->times[i];
-                push(following, view.t, value_of(sweep, &view));
-            }
-            entries->count = 0;
+            push_maximum(following);
         }
     }
 }

@@ -36,7 +36,7 @@ enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_t
     step.out = out;
     step.carry = base->carry;
     step.carry_out = base->carry_out;
-    step.memory = step.memory_out = NULL;
+    step.memory = step.memory_out = step.trace = NULL;
     step.workspace = base->workspace;
     if (base->carry) { /* a scheme without compensation leaves it unchanged */
         memcpy(base->carry_out, base->carry, base->problem.n * base->problem.m * sizeof *y);

@@ -31,6 +31,9 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     const void *parameters = task->problem->parameters;
     const bool stiff = gm_ode_of(task->problem)->stiff;
     const double h = task->dt;
+#ifdef GM_PASS_SCALAR
+    double *const trace = task->trace;
+#endif
     const bool whole = first + (size_t)(GM_LANES * GM_ABREAST) <= task->problem->m;
     struct K(counts) counts[GM_ABREAST];
     struct K(block) block[GM_ABREAST];
@@ -69,6 +72,11 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
                 farthest = K(farther)(farthest, K(block_distance)(&block[b], task));
             }
+#ifdef GM_PASS_SCALAR
+            if (trace) {
+                memcpy(trace + (size_t)(done + i) * GM_COMPONENTS, block[0].y, sizeof block[0].y);
+            }
+#endif
         }
         if (K(everywhere)(solved) && !K(somewhere_beyond)(farthest, task->limit)) {
             done += burst;
@@ -171,6 +179,9 @@ GM_INLINE bool GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *
 
 GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
+#ifdef GM_PASS_SCALAR
+    progress.traced = task->trace != NULL;
+#endif
 #if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
     if (task->steps <= GM_BURST && task->problem->m >= (size_t)(GM_LANES * GM_ABREAST)) {
         if (GM_DRIVE_NAME(quickly)(task, row, compensated, &progress)) {

@@ -65,6 +65,7 @@ struct gm_progress gm_members_loop(const struct gm_task *task)
     const struct gm_member_family *family = task->scheme->family->members;
     const bool adaptive = task->scheme->family->adaptive;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
+    progress.traced = task->trace != NULL;
     progress.evaluations = family->evaluated_at_start && task->steps_before == 0 ? m : 0;
     members->carry = task->carry ? members->memory + members->remembered : NULL;
     for (size_t member = 0; member < m; member++) {
@@ -85,6 +86,9 @@ struct gm_progress gm_members_loop(const struct gm_task *task)
                 progress.status = status;
             } else if (adaptive && progress.t >= task->until) {
                 progress.done = done + 1;
+            }
+            if (task->trace && status == GM_OK) {
+                memcpy(task->trace + (size_t)done * n, members->y, n * sizeof *members->y);
             }
         }
         gm_member_put(members->y, task->out, n, m, member);

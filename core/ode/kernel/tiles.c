@@ -79,6 +79,7 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
                     struct gm_progress *progress)
 {
     const size_t active = gm_tile_components(task->problem) * tile->members;
+    double *trace = task->trace;
     for (int64_t done = 0; done < progress->done; done++) {
         enum gm_status status = step(task, tile, progress);
         if (status == GM_OK && !are_within(tile->y, active, task->limit)) {
@@ -87,6 +88,9 @@ static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_ti
         if (status != GM_OK) {
             progress->done = done;
             progress->status = status;
+        } else if (__builtin_expect(trace != NULL, false)) {
+            memcpy(trace, tile->y, active * sizeof *tile->y);
+            trace += active;
         }
     }
 }
@@ -96,7 +100,7 @@ struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row,
     const struct tiles *tiles = task->workspace;
     const struct gm_loops *loops = gm_ode_of(task->problem)->loops[gm_isa_best()];
     const size_t n = task->problem->n, m = task->problem->m;
-    struct gm_progress progress = {.done = task->steps, .status = GM_OK};
+    struct gm_progress progress = {.done = task->steps, .status = GM_OK, .traced = task->trace != NULL};
     const bool whole = tiles->members == m;
     for (size_t first = 0; first < m; first += tiles->members) {
         const size_t count = m - first < tiles->members ? m - first : tiles->members;

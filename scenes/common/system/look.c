@@ -107,6 +107,19 @@ void gm_system_variables(const struct gm_view *view, size_t member, bool exact, 
     }
 }
 
+/* Writes the values of the variables that a tape reads; few if it reads only components and the time. */
+static void put_used(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *variables)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
+    if (tape->last_used > system->n + 1 || view->problem->n < system->n) {
+        gm_system_variables(view, member, tape->last_used > system->exact, variables);
+        return;
+    }
+    for (size_t i = tape->first_used; i < tape->last_used; i++) {
+        variables[i] = i < system->n ? view->state[i * view->problem->m + member] : view->t;
+    }
+}
+
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
 {
     const struct gm_user_system *system = &gm_system_scene_of(view)->system;
@@ -116,13 +129,44 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
         variables = many = malloc(system->variable_count * sizeof *many);
     }
     if (variables) {
-        gm_system_variables(view, member, tape->last_used > system->exact, variables);
+        put_used(tape, view, member, variables);
         gm_tape_values(tape, variables, values, 1);
     }
     for (size_t i = 0; !variables && i < tape->outputs; i++) {
         values[i] = NAN;
     }
     free(many);
+}
+
+void gm_system_values_along(const struct gm_tape *tape, const struct gm_view *view,
+                            const struct gm_trace *trace, double *values)
+{
+    const struct gm_user_system *system = &gm_system_scene_of(view)->system;
+    const size_t count = (size_t)trace->count, n = view->problem->n, inputs = tape->inputs;
+    double *variables = malloc(system->variable_count * sizeof *variables),
+           *columns = malloc((inputs + tape->outputs) * count * sizeof *columns);
+    const bool found = variables && columns;
+    for (size_t i = found ? tape->first_used : inputs; i < tape->last_used; i++) {
+        const bool is_state = i < system->n && i < n;
+        const double *from = is_state         ? trace->states + n + i
+                             : i == system->n ? trace->times + 1
+                                              : &variables[i];
+        const size_t stride = is_state ? n : i == system->n ? 1 : 0;
+        if (i == tape->first_used) {
+            gm_system_variables(view, 0, false, variables);
+        }
+        for (size_t k = 0; k < count; k++) {
+            columns[i * count + k] = from[k * stride];
+        }
+    }
+    if (found) {
+        gm_tape_block(tape, columns, count, columns + inputs * count, count, count);
+    }
+    for (size_t k = 0; k < count; k++) {
+        values[k] = found ? columns[inputs * count + k] : NAN;
+    }
+    free(columns);
+    free(variables);
 }
 
 static void fill(double *row, double value, size_t count)

@@ -177,6 +177,9 @@ size_t gm_system_centre(const struct gm_view *view);
 void gm_system_variables(const struct gm_view *view, size_t member, bool exact, double *variables);
 /* Writes the values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
+/* Writes the first value of a tape after each step of a trace of one member, the last of which is the view's. */
+void gm_system_values_along(const struct gm_tape *tape, const struct gm_view *view,
+                            const struct gm_trace *trace, double *values);
 /* Writes the numbers of a sight for one member of a view's state. */
 void gm_sight_values(const struct gm_sight *sight, const struct gm_view *view, size_t member, double *values);
 /* The numbers of a sight's bodies in every entry of a track: `width` per entry. */
