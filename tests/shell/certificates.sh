@@ -34,6 +34,11 @@ status 0 certify gsl-rk8pd --on stiff
 grep -q 'order 8, measured 8' out || fail "an order at round-off: $(cat out)"
 status 0 certify discrete-gradient2 --on kicked-rotor
 grep -q 'H  *conserved ' out || fail "roundings of an angle: $(cat out)"
+# away from its constraint a motion is not Hamiltonian, and the midpoint rule leaves it
+status 0 certify midpoint --on cartesian-pendulum
+grep -q 'S symplectic  *not claimed' out || fail "a scheme beside the constraint: $(cat out)"
+status 0 certify rattle2 --on cartesian-pendulum
+grep -q 'S symplectic  *holds' out || fail "a scheme on the constraint: $(cat out)"
 
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures
