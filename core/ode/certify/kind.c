@@ -589,7 +589,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         /* of other schemes the claim is about canonical coordinates, and of this one about half of theta */
         gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
     }
-    if (gm_action_constraints(system->problem) > 0 && !(scheme->claims & GM_KEEPS_CONSTRAINTS)) {
+    if (gm_action_constraints(system->problem) > 0 && !(scheme->needs & GM_NEEDS_CONSTRAINTS)) {
         /* the motion is Hamiltonian where the constraints hold, and this scheme leaves that place */
         gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
         gm_certificate_claim(certificate, GM_KEEPS_QUADRATIC)->claimed = false;
