@@ -741,6 +741,13 @@ assert abs(end["state"][0] - height) < 1e-9 and abs(end["state"][1] - (v - g*(10
 assert kept["events"] == n == 2 and kept["energy_error"] < 1e-12, kept
 assert abs(kept["event_work"] - 490*(r**4 - 1)) < 1e-9, kept
 ' || fail "a ball: $(cat out)"
+# the velocity over time is three pieces of a line: no stroke joins what a bounce has left to what it makes
+"$geomint" render ball.system scheme=gauss4 until=10 show=t:v -o ball.svg >out || fail 'a picture of a ball'
+python3 -c '
+import xml.etree.ElementTree as tree
+lines = [path.get("d") for path in tree.parse("ball.svg").iter() if path.get("stroke") and path.get("d")]
+assert any(line.count("M") == 3 and line.count("l") == 3 for line in lines), lines
+' || fail 'a line joins the velocities before and after a bounce'
 "$geomint" run ball.system scheme=explicit-euler until=10 --json >out || fail 'a ball of Euler'
 python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] > 1e-2' || fail "a ball of Euler: $(cat out)"
 printf 'rate: x = v, v = 0, w = 0\ninvariant: V = v\ninvariant: W = w\nstart: x = 0, v = 1, w = 3\nevent: x = 1; v = 2*v\nevent: x = 2; w = w + 1/4\n' >gate.system

@@ -227,20 +227,25 @@ static size_t average(double *points, size_t count)
     return made;
 }
 
-/* Writes the curve of a body, and its current point unless `now` is NULL; angles are unwrapped. Returns the number
-   of points. */
+/* Writes the curve of a body, and its current point unless `now` is NULL; angles are unwrapped. At an event, which has two
+   entries, a curve of one quantity is interrupted: a jump is no motion. Returns the number of points, at most twice that
+   of the entries and the current point. */
 static size_t curve_of(const struct gm_path *path, const struct gm_sight *sight, size_t body,
                        const double *now, double *points)
 {
     const double period = sight->curves ? sight->curves[body].period : 0;
+    double before = NAN;
     size_t count = 0;
     for (size_t i = 0; i < path->count + (now ? 1 : 0); i++, count++) {
-        const double *from = i < path->count ? path->points + i * path->width : now;
-        memcpy(points + 2 * count, from + 2 * body, 2 * sizeof *points);
-        const double before = i > 0 ? points[2 * count - 1] : NAN;
-        if (period > 0 && isfinite(before)) {
-            points[2 * count + 1] += period * round((before - points[2 * count + 1]) / period);
+        const double *from = (i < path->count ? path->points + i * path->width : now) + 2 * body;
+        if (sight->curves && i > 0 && i < path->count && path->times[i] == path->times[i - 1]) {
+            points[2 * count] = points[2 * count + 1] = NAN;
+            count++;
         }
+        points[2 * count] = from[0];
+        points[2 * count + 1] =
+            period > 0 && isfinite(before) ? from[1] + period * round((before - from[1]) / period) : from[1];
+        before = points[2 * count + 1];
     }
     return count;
 }
@@ -287,7 +292,7 @@ void gm_system_draw_curves(struct gm_picture *picture, struct gm_panel *panel, c
     const bool several = sight->curves && sight->bodies > 1,
                alone = gm_lane_is_alone(walk->lanes, walk->count, walk->lane), leads = walk->first;
     double *points = gm_picture_memory(
-        picture, 2 * (lane->entries[GM_TRACK_PAST].count + lane->entries[GM_TRACK_MEMBERS].count + 1) *
+        picture, 4 * (lane->entries[GM_TRACK_PAST].count + lane->entries[GM_TRACK_MEMBERS].count + 1) *
                      sizeof *points);
     for (size_t body = 0; body < sight->bodies; body++) {
         const bool is_last = body + 1 == sight->bodies;
