@@ -6,6 +6,7 @@
 
 #include "core/files/files.h"
 #include "core/flow/room.h"
+#include "core/memory.h"
 #include "core/model/equations.h"
 #include "scenes/common/system/variants.h"
 #include "scenes/field/user_field.h"
@@ -73,8 +74,11 @@ static const struct gm_scene *open_file(const struct gm_built_in *file)
 {
     struct gm_fault fault = {0};
     size_t line, column;
+    const unsigned long refusals = gm_memory_refusals();
     const struct gm_scene *scene = open_system(file, &fault);
-    if (!scene && fault.sentence[0]) {
+    if (!scene && gm_memory_refusals() != refusals) {
+        gm_refuse(reason, "not enough memory");
+    } else if (!scene && fault.sentence[0]) {
         gm_text_place(file->text, fault.offset, &line, &column);
         gm_refuse(reason, "%s:%zu:%zu: %s", file->path, line, column, fault.sentence);
     }

@@ -600,6 +600,7 @@ static void print_names(const struct report *report, const struct gm_kind *other
                                   same ? same->name : "");
         }
     }
+    gm_arena_need(report->arena, !gm_memory_was_short()); /* a scheme that is not opened would be left out */
     gm_print_wrapped(text, printf("  "), 2);
 }
 
@@ -992,6 +993,7 @@ struct found {
     struct gm_symmetry *symmetries;
     size_t symmetries_unwritten;
     size_t symmetry_count;
+    const char **names, **formulas; /* of the invariants, and then the formulas of the symmetries */
 };
 
 /* "x = -y, y = x": the components that are not 0 */
@@ -1005,6 +1007,22 @@ static const char *symmetry_formula(struct report *report, const struct gm_symme
         }
     }
     return text;
+}
+
+/* Writes names and formulas, before any line of them is begun: memory may not suffice. */
+static void write_found(struct report *report, struct found *found)
+{
+    const size_t count = found->invariants.count;
+    found->names = gm_arena_take(report->arena, count + 1, sizeof *found->names);
+    found->formulas =
+        gm_arena_take(report->arena, count + found->symmetry_count + 1, sizeof *found->formulas);
+    for (size_t i = 0; i < count; i++) {
+        found->names[i] = found_name(report, &found->invariants, i);
+        found->formulas[i] = written_out(report, found->invariants.list[i].node);
+    }
+    for (size_t i = 0; i < found->symmetry_count; i++) {
+        found->formulas[count + i] = symmetry_formula(report, &found->symmetries[i]);
+    }
 }
 
 static void print_found(struct report *report, const struct found *found)
@@ -1030,9 +1048,9 @@ static void print_found(struct report *report, const struct found *found)
                 ? gm_arena_print(report->arena, "degree %zu", invariant->degree)
                 : gm_arena_print(report->arena, "%s%s", invariants->lacks ? "" : "of a higher degree, ",
                                  certainty(invariant->proved ? GM_ZERO_PROVED : GM_ZERO_TESTED));
-        gm_print_wrapped(gm_arena_print(report->arena, "%s = %s (%s)", found_name(report, invariants, i),
-                                        written_out(report, invariant->node), degree),
-                         printf("  "), 2);
+        const char *line =
+            gm_arena_print(report->arena, "%s = %s (%s)", found->names[i], found->formulas[i], degree);
+        gm_print_wrapped(line, printf("  "), 2);
     }
     if (invariants->unwritten > 0) {
         printf("  and %zu whose coefficients are not short fractions\n", invariants->unwritten);
@@ -1046,10 +1064,10 @@ static void print_found(struct report *report, const struct found *found)
     }
     printf("affine symmetries, fields that send motions into motions: %zu\n", found->symmetry_count);
     for (size_t i = 0; i < found->symmetry_count; i++) {
-        const char *formula = symmetry_formula(report, &found->symmetries[i]);
-        gm_print_wrapped(
-            gm_arena_print(report->arena, "%s (scaling %g)", formula, found->symmetries[i].scaling),
-            printf("  "), 4);
+        const char *line =
+            gm_arena_print(report->arena, "%s (scaling %g)", found->formulas[invariants->count + i],
+                           found->symmetries[i].scaling);
+        gm_print_wrapped(line, printf("  "), 4);
     }
     if (found->symmetries_unwritten > 0) {
         printf("  and %zu whose coefficients are not short fractions\n", found->symmetries_unwritten);
@@ -1067,17 +1085,16 @@ static void put_found(struct report *report, const struct found *found)
     for (size_t i = 0; i < invariants->count; i++) {
         const struct gm_found_invariant *invariant = &invariants->list[i];
         struct gm_row one = gm_row_open(&list, NULL, '}');
-        gm_row_put(&one, "formula %s, degree %.17g, proof %s, name %s", written_out(report, invariant->node),
+        gm_row_put(&one, "formula %s, degree %.17g, proof %s, name %s", found->formulas[i],
                    invariant->degree > 0 ? (double)invariant->degree : NAN,
-                   invariant->proved ? "exact" : certainty(GM_ZERO_TESTED),
-                   found_name(report, invariants, i));
+                   invariant->proved ? "exact" : certainty(GM_ZERO_TESTED), found->names[i]);
     }
     gm_row_put(&row, "invariants_unwritten %i, invariants_independent %i", (int)invariants->unwritten,
                (int)invariants->independent);
     list = gm_row_open(&row, "symmetries_found", ']');
     for (size_t i = 0; i < found->symmetry_count; i++) {
         struct gm_row one = gm_row_open(&list, NULL, '}');
-        gm_row_put(&one, "formula %s, scaling %.17g", symmetry_formula(report, &found->symmetries[i]),
+        gm_row_put(&one, "formula %s, scaling %.17g", found->formulas[invariants->count + i],
                    found->symmetries[i].scaling);
     }
     gm_row_put(&row, "symmetries_unwritten %i", (int)found->symmetries_unwritten);
@@ -1095,6 +1112,7 @@ static int list_invariants(const struct gm_options *options, struct report *repo
                                ? 0
                                : gm_symmetries_find(&report->system, options->arena, &found.symmetries,
                                                     &found.symmetries_unwritten);
+    write_found(report, &found);
     gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);
     return GM_EXIT_OK;

@@ -98,12 +98,19 @@ class Session:
         return True
 
     def run_out(self):
-        """Reads what is left. The last bytes of a program that has ended may still be on their way: reading fails at their end."""
+        """Reads what is left. The last bytes of a program that has ended may still be on their way from the kernel, which
+        says the end before: they are waited for while a mode is on that its leaving turns off."""
+        end = time.monotonic() + 5
         while select.select([self.master], [], [], 1)[0]:
             try:
                 self.take(os.read(self.master, 1 << 16))
             except OSError:
-                break
+                if not self.modes_on() or time.monotonic() > end:
+                    break
+                time.sleep(0.05)
+
+    def modes_on(self):
+        return [mode for mode, value in self.modes.items() if value and mode not in ('25', '7')]
 
 
 def event(choose, session):
@@ -171,8 +178,7 @@ def leave(choose, session, sent):
         fail(session, f'{way} does not end it', sent)
     if session.status not in wanted:
         fail(session, f'after {way} its status is {session.status:#x}', sent)
-    on = [mode for mode, value in session.modes.items() if value and mode not in ('25', '7')]
-    if on or not session.modes.get('25', True):
+    if session.modes_on() or not session.modes.get('25', True):
         fail(session, f'it leaves the terminal with the modes {session.modes}', sent)
     if termios.tcgetattr(session.master)[:4] != session.before[:4]:
         fail(session, 'it leaves the terminal with other settings', sent)
