@@ -1009,7 +1009,7 @@ static const char *symmetry_formula(struct report *report, const struct gm_symme
     return text;
 }
 
-/* Writes names and formulas, before any line of them is begun: memory may not suffice. */
+/* Prepares names and formulas before the first line of them: there may be too little memory for all. */
 static void write_found(struct report *report, struct found *found)
 {
     const size_t count = found->invariants.count;

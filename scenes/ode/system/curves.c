@@ -228,8 +228,8 @@ static size_t average(double *points, size_t count)
 }
 
 /* Writes the curve of a body, and its current point unless `now` is NULL; angles are unwrapped. At an event, which has two
-   entries, a curve of one quantity is interrupted: a jump is no motion. Returns the number of points, at most twice that
-   of the entries and the current point. */
+   entries, a curve of one quantity is interrupted, so that no line joins the values before and after a jump. Returns the
+   number of points, at most twice that of the entries and the current point. */
 static size_t curve_of(const struct gm_path *path, const struct gm_sight *sight, size_t body,
                        const double *now, double *points)
 {
