@@ -637,7 +637,9 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
         if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
             return outcome;
         }
-        if (outcome != GM_EVENTS_HAPPENED || place == 1 || step->varies) {
+        const bool ends =
+            place == 1 || (step->end_time - rest.t) * step->dt <= 0; /* or beyond, by round-off */
+        if (outcome != GM_EVENTS_HAPPENED || ends || step->varies) {
             memcpy(step->end, rest.to, step->size * sizeof *rest.to);
             return outcome;
         }

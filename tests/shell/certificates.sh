@@ -39,6 +39,14 @@ status 0 certify midpoint --on cartesian-pendulum
 grep -q 'S symplectic  *not claimed' out || fail "a scheme beside the constraint: $(cat out)"
 status 0 certify rattle2 --on cartesian-pendulum
 grep -q 'S symplectic  *holds' out || fail "a scheme on the constraint: $(cat out)"
+# the reference meets the events, at their times
+for scheme in dopri5 rk4; do
+    printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nevent: mod(t, 0.37) = 0.1; p = p - 0.3*sin(q)\nstart: q = 0.5, p = 0.2\ndt: 0.1\n' >kicks.system
+    for system in clock ./kicks.system; do
+        status 0 certify $scheme --on $system
+        grep -q 'order [45], measured [3-6]' out || fail "$scheme on $system: $(cat out)"
+    done
+done
 
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -907,6 +907,20 @@ end, full = json.load(open("out")), json.load(open("full"))
 assert abs(end["state"][3] - 5) < 1e-13 and end["observables"]["events_late"] == 1 and end["observables"]["events"] == 11, end
 assert abs(full["t"] - 9) < 1e-13 and full["state"][2] == 5, full
 ' || fail "a memory: $(cat out full)"
+# an event at each end of a step, by round-off before or after it
+printf 'rate: x = 1, n = 0\nevent: mod(t, 0.1) = 0; n = n + 1\nstart: x = 0, n = 0\ndt: 0.1\nuntil: 100.01\n' >ends.system
+for scheme in rk4 dopri5 gsl-rk4; do
+    "$geomint" run ends.system scheme=$scheme --json >out || fail "an event at each end: $scheme"
+    grep -q '"events":1000[,}]' out || fail "an event at each end: $scheme: $(cat out)"
+done
+# a step with the determinant 0 ends no exponent but those of the directions that it ends
+"$geomint" run system rate='x = 3.7*x*(1-x) - x, y = -y' x=.3 y=.4 dt=1 until=1000 scheme=explicit-euler \
+    --measure lyapunov_spectrum,lyapunov --json >out || fail 'a spectrum with a lost direction'
+python3 -c '
+import json
+seen = json.load(open("out"))["observables"]
+assert abs(seen["lyapunov1"] - seen["lyapunov"]) < 5e-3 and seen["lyapunov"] > 0.3 and seen["lyapunov2"] is None, seen
+' || fail "a spectrum with a lost direction: $(cat out)"
 # a new value that is not finite
 printf 'rate: x = -1, n = 0\nstart: x = 1, n = 0\nevent: hit; x = 0.55; n = log(x - 1)\ndt: 0.1\nuntil: 4\n' >log.system
 status 2 run log.system scheme=rk4

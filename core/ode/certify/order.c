@@ -14,7 +14,7 @@
 #include "core/theory/certify.h"
 
 /* The error is summed over several times: at a single one it may happen to vanish. */
-enum { TIMES = 4 };
+enum { TIMES = 4, STEPS = 400 /* of the reference with events, between two times */ };
 
 static int field_for_gsl(double t, const double y[], double f[], void *problem)
 {
@@ -24,36 +24,47 @@ static int field_for_gsl(double t, const double y[], double f[], void *problem)
 }
 
 /* The same by short steps of a high order, which meet the events. */
-static bool solve_with_events(const struct gm_problem *problem, double until, double *y)
+static bool solve_with_events(const struct gm_problem *problem, double until, int64_t steps, double *y)
 {
-    enum { STEPS = 400 };
     const struct gm_settings settings = {.compensated = 1};
-    const struct gm_trial trial = {problem, gm_scheme_find_for("gauss8", problem), &settings, until / STEPS,
-                                   STEPS};
+    const struct gm_trial trial = {problem, gm_scheme_find_for("gauss8", problem), &settings,
+                                   until / (double)steps, steps};
     return gm_trial_advance(&trial, y, y);
+}
+
+static bool has_events(const struct gm_problem *problem)
+{
+    return problem->events && (problem->events->changes || problem->events->breaks > 0);
 }
 
 /* y := the solution at `until`, from y */
 static bool solve_by_gsl(const struct gm_problem *problem, double until, double *y)
 {
     struct gm_problem copy = *problem;
-    if (problem->events && (problem->events->changes || problem->events->breaks > 0)) {
-        return solve_with_events(problem, until, y);
-    }
-    return gm_certify_solve(&(gsl_odeiv2_system){field_for_gsl, NULL, problem->n, &copy}, 1e-15, until, y);
+    return has_events(problem)
+               ? solve_with_events(problem, until, STEPS, y)
+               : gm_certify_solve(&(gsl_odeiv2_system){field_for_gsl, NULL, problem->n, &copy}, 1e-15, until,
+                                  y);
 }
 
-/* The solution at k until / TIMES, k = 1.., one after the other. */
+/* The solution at k until / TIMES, k = 1.., one after the other; with events, which may depend on the time, each from the
+   start. */
 static bool solve_at_times(const struct gm_subject *subject, double until,
                            double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
+    const size_t size = subject->problem.n * sizeof(double);
     double y[GM_SUBJECT_COMPONENTS];
-    memcpy(y, subject->start, subject->problem.n * sizeof *y);
+    memcpy(y, subject->start, size);
     for (int k = 0; k < TIMES; k++) {
-        if (!solve_by_gsl(&subject->problem, until / TIMES, y)) {
+        const bool again = has_events(&subject->problem);
+        if (again) {
+            memcpy(y, subject->start, size);
+        }
+        if (!(again ? solve_with_events(&subject->problem, (k + 1) * until / TIMES, (k + 1) * STEPS, y)
+                    : solve_by_gsl(&subject->problem, until / TIMES, y))) {
             return false;
         }
-        memcpy(exact[k], y, subject->problem.n * sizeof *y);
+        memcpy(exact[k], y, size);
     }
     return true;
 }
@@ -121,9 +132,12 @@ static double measure_by_tolerance(const struct gm_subject *subject)
     if (!solve_at_times(subject, until, exact)) {
         return NAN;
     }
+    /* a step of dt meets each event, which one over the whole time would jump over */
+    const int64_t between = subject->problem.events ? (int64_t)ceil(until / (TIMES * fabs(subject->dt))) : 1;
     for (int i = 0; i < LADDER; i++) {
         const struct gm_settings settings = {.tolerance = gm_pow(10, -4 - 2 * i)};
-        const struct trial trial = make_trial(subject, &settings, until / TIMES, 1, exact);
+        const struct trial trial =
+            make_trial(subject, &settings, until / (double)(TIMES * between), between, exact);
         if (i == 0 && trial.error <= 1e-12 * subject->scale) {
             return NAN; /* it is exact here, up to round-off */
         }

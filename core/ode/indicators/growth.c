@@ -136,22 +136,29 @@ static void remove_part(const double *u, double *v, size_t n, size_t size)
 }
 
 /* Makes the vectors orthonormal in the units of the components, one after the other, each twice against round-off,
-   and adds the logarithms of what is left of their lengths. Returns the first of these lengths. */
+   and adds the logarithms of what is left of their lengths. A vector of which only round-off is left was mapped to 0, and
+   stays 0. Returns the first of these lengths. */
 static double orthonormalise(const struct gm_growth *growth)
 {
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
     const double *units = gm_tangent_units(growth->tangent);
+    const double noise = 1e-28; /* of the squares of lengths */
     double first = 0;
     for (size_t k = 0; k < growth->vectors; k++) {
-        double *v = growth->v + k * size, square = 0;
+        double *v = growth->v + k * size, whole = 0, square = 0;
         for (size_t c = 0; c < n; c++) {
             v[c] /= units[c];
+            whole += v[c] * v[c];
         }
         for (size_t i = 0; i < 2 * k; i++) {
             remove_part(growth->v + i % k * size, v, n, size);
         }
         for (size_t c = 0; c < n; c++) {
             square += v[c] * v[c];
+        }
+        square = square > noise * whole ? square : 0;
+        for (size_t c = 0; c < size && square == 0; c++) {
+            v[c] = 0;
         }
         for (size_t c = 0; c < size && square > 0; c++) {
             v[c] /= sqrt(square);
@@ -213,11 +220,6 @@ static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
 {
     struct gm_run *run = growth->run;
     *made = (struct gm_stretch){.length = NAN};
-    if (log_volume_of(growth) == -INFINITY) { /* it stays 0, and no vectors span it */
-        const bool stepped = gm_run_advance(run, 1) == GM_OK;
-        made->t = run->t;
-        return stepped;
-    }
     const double t = run->t, before = divergence_at(growth, run);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
     const double middle =

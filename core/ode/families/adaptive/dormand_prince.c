@@ -219,7 +219,8 @@ static struct gm_progress loop(const struct gm_task *task)
             status = left > 0 ? own_step(task, &member, end, &progress) : GM_STEP_TOO_SMALL;
             left = floor((*t - task->t0) / task->dt) > row ? MOST_STEPS : left;
         }
-        for (; status != GM_OK && (*t - time_of_row(task, progress.done)) * task->dt < 0; progress.done--) {
+        for (; status != GM_OK && progress.done > 0 && (*t - time_of_row(task, progress.done)) * task->dt < 0;
+             progress.done--) {
             progress.status = status;
         }
         for (size_t c = 0; status == GM_OK && c < problem->n; c++) {
