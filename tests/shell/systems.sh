@@ -907,6 +907,10 @@ end, full = json.load(open("out")), json.load(open("full"))
 assert abs(end["state"][3] - 5) < 1e-13 and end["observables"]["events_late"] == 1 and end["observables"]["events"] == 11, end
 assert abs(full["t"] - 9) < 1e-13 and full["state"][2] == 5, full
 ' || fail "a memory: $(cat out full)"
+# mod of a memory jumps as the memory does
+printf 'rate: n = 0, m = 0, x = 1\nevent: a; x = 1; x = 0, n = n + 1\nevent: even; mod(n, 2) = 0; m = m + 1\nstart: n = 0, m = 0, x = 0\ndt: 0.1\nuntil: 10.05\n' >even.system
+"$geomint" run even.system scheme=rk4 --json >out || fail 'mod of a memory'
+grep -q '"events_a":10,"events_even":5[,}]' out || fail "mod of a memory: $(cat out)"
 # an event at each end of a step, by round-off before or after it
 printf 'rate: x = 1, n = 0\nevent: mod(t, 0.1) = 0; n = n + 1\nstart: x = 0, n = 0\ndt: 0.1\nuntil: 100.01\n' >ends.system
 for scheme in rk4 dopri5 gsl-rk4; do

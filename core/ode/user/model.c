@@ -185,16 +185,15 @@ static gm_node_id surface_of(struct gm_user_system *system, gm_node_id g, const 
                             mod.b);
 }
 
-/* Returns true if a function with these slopes, row 0, changes only by jumps, its own ones or those of components without a
+/* Returns true if a function with these slopes changes only by jumps, its own ones or those of components without a
    rate at events. */
 static bool only_jumps(const struct gm_user_system *system, const struct gm_sparse *slopes)
 {
     bool jumps = true;
     for (size_t i = 0; i < slopes->count; i++) {
         const size_t c = slopes->entries[i].column;
-        const bool steady =
+        jumps &=
             c < system->n && system->kind == GM_RATES && gm_is_constant(&system->graph, system->rates[c], 0);
-        jumps &= slopes->entries[i].row > 0 || steady;
     }
     return jumps;
 }
@@ -208,10 +207,13 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     gm_node_id *nodes = gm_arena_take(arena, n + 1, sizeof *nodes);
     memset(marked, true, (n + 1) * sizeof *marked);
     event->item = item;
-    event->form = GM_AT_ZERO;
+    const struct gm_sparse own =
+        gm_sparse_jacobian(arena, &system->graph, item->nodes, 1, marked, system->variable_count);
+    event->form = only_jumps(system, &own) ? GM_AT_JUMP : GM_AT_ZERO;
     event->conditions = item->count - first;
     event->components = gm_arena_take(arena, n + 1, sizeof *event->components);
-    nodes[0] = surface_of(system, item->nodes[0], marked, &event->form);
+    nodes[0] =
+        event->form == GM_AT_JUMP ? item->nodes[0] : surface_of(system, item->nodes[0], marked, &event->form);
     for (size_t c = 0; c < n && !item->ends; c++) {
         const struct gm_node *node = &system->graph.nodes[item->nodes[1 + c]];
         if (node->operation != GM_VARIABLE || node->a != c) {
@@ -225,7 +227,6 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->slopes =
         gm_sparse_jacobian(arena, &system->graph, nodes, 1 + event->changed, marked, system->variable_count);
     event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
-    event->form = event->form == GM_AT_ZERO && only_jumps(system, &event->slopes) ? GM_AT_JUMP : event->form;
     event->surface = nodes[0];
 }
 
