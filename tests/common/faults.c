@@ -291,7 +291,7 @@ ssize_t pread(int descriptor, void *bytes, size_t size, off_t offset)
 ssize_t pwrite(int descriptor, const void *bytes, size_t size, off_t offset)
 {
     static atomic_size_t written;
-    if ((written += size) > MOST_WRITTEN) {
+    if (atomic_fetch_add(&written, size) + size > MOST_WRITTEN) {
         abort();
     }
     return NO_FILE_HERE ? refuse(ENOSPC) : syscall(SYS_pwrite64, descriptor, bytes, size, offset);
