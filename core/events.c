@@ -269,8 +269,8 @@ struct rest {
     double *modes;                      /* of breaks before a change */
     double *sizes;                      /* of the g of all events, at both ends of the step */
     double *jumps;                      /* 1: g jumps past 0 there, which is not an event */
-    double *
-        places; /* for each event the fraction of `rest` where it happens; NaN: it does not; infinite: it has */
+    /* The fraction of `rest` where each event happens; NaN: it does not; infinite: it has. */
+    double *places;
 };
 
 /* Writes the g of all events. */

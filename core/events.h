@@ -11,8 +11,8 @@
 
 struct gm_event_part;
 
-/* The places where an event happens: at a 0 of g, which g passes, or to which it jumps; at each whole number of g; or, of a g that
-   changes only by jumps, at the jump to 0 or past it. */
+/* The places where an event happens: at a 0 of g, which g passes, or to which it jumps; at each whole number of g; or, of a
+   g that changes only by jumps, at the jump to 0 or past it. */
 enum gm_event_form { GM_AT_ZERO, GM_AT_WHOLE, GM_AT_JUMP };
 
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */

@@ -27,8 +27,8 @@ struct gm_theory {
        Prince & Dormand, J. Comput. Appl. Math. 7 (1981) 67. NaN if no condition fails. */
     double error_constant;
     bool symplectic, symmetric;
-    bool
-        plain; /* all components of the state have the same coefficients; of a Nystrom method also if not known */
+    /* All components of the state have the same coefficients; of a Nystrom method also if that is not known. */
+    bool plain;
     /* The power of h up to which a plain method that is not symplectic has symplectic steps. A. Aubry &
        P. Chartier, BIT 38 (1998) 439. */
     int pseudo_symplectic;

@@ -53,11 +53,10 @@ static bool solve_at_times(const struct gm_subject *subject, double until,
                            double exact[TIMES][GM_SUBJECT_COMPONENTS])
 {
     const size_t size = subject->problem.n * sizeof(double);
+    const bool again = has_events(&subject->problem);
     double y[GM_SUBJECT_COMPONENTS];
-    memcpy(y, subject->start, size);
     for (int k = 0; k < TIMES; k++) {
-        const bool again = has_events(&subject->problem);
-        if (again) {
+        if (again || k == 0) {
             memcpy(y, subject->start, size);
         }
         if (!(again ? solve_with_events(&subject->problem, (k + 1) * until / TIMES, (k + 1) * STEPS, y)
