@@ -227,15 +227,23 @@ struct solution {
 static bool solve(void *data)
 {
     const struct solution *solution = data;
-    /* small components beside large ones take part in the round-off of these: no step is short enough for
-       less */
-    double size = 0;
-    for (size_t i = 0; i < solution->equations->dimension; i++) {
-        size = fmax(size, fabs(solution->y[i]));
+    const gsl_odeiv2_system *equations = solution->equations;
+    double *rates = malloc(equations->dimension * sizeof *rates), size = 0, reach = 0;
+    if (!rates || equations->function(0, solution->y, rates, equations->params) != GSL_SUCCESS) {
+        free(rates);
+        return false;
     }
-    gsl_odeiv2_driver *driver =
-        gsl_odeiv2_driver_alloc_y_new(solution->equations, gsl_odeiv2_step_rk8pd, 1e-3,
-                                      fmax(solution->tolerance, DBL_EPSILON / 2 * size), solution->tolerance);
+    for (size_t i = 0; i < equations->dimension; i++) {
+        size = fmax(size, fabs(solution->y[i]));
+        reach = fmax(reach, fabs(solution->until * rates[i]));
+    }
+    free(rates);
+    /* in units that make all numbers small the errors of schemes are as small; small components beside large ones take
+       part in the round-off of these: no step is short enough for less */
+    reach = fmax(size, reach);
+    const double tolerance = solution->tolerance * (reach > 0 ? fmin(reach, 1) : 1);
+    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(
+        equations, gsl_odeiv2_step_rk8pd, 1e-3, fmax(tolerance, DBL_EPSILON / 2 * size), solution->tolerance);
     if (!driver) {
         return false;
     }

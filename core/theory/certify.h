@@ -173,8 +173,9 @@ void gm_certificate_note_same(struct gm_certificate *certificate, const struct g
 bool gm_trial_turn(const struct gm_trial *trial, const double *start, bool reflected, double push,
                    double *end);
 
-/* y := the solution at the time `until` of these equations, from y at 0, with GSL's Prince-Dormand stepper
-   and this absolute and relative tolerance. Returns false if it fails, or when out of memory. */
+/* y := the solution at the time `until` of these equations, from y at 0, with GSL's Prince-Dormand stepper, this relative
+   tolerance, and as an absolute one this, or less where all of y is less than 1. Returns false if it fails, or when out of
+   memory. */
 bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, double until, double *y);
 
 #endif

@@ -48,5 +48,11 @@ for scheme in dopri5 rk4; do
     done
 done
 
+# the same motion in units of a millionth
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 - 1e-12*cos(1e6*q)\nstart: q = 1e-6, p = 0\ndt: 0.1\n' >small.system
+status 0 certify gauss4 --on ./small.system
+grep -q 'order 4, measured 4\.0' out || fail "an order in small units: $(cat out)"
+grep -q 'S symplectic  *holds' out || fail "a derivative in small units: $(cat out)"
+
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures
