@@ -89,6 +89,8 @@ def densities():
     check(line == key, "a line and a key have the same bits, and the key replaces the line")
     refused("density: there is no name v; did you mean velocity, at column 10 of sqrt(1 + v)", "soliton", "density=sqrt(1 + v)")
     refused("density: it does not hold u_t, at column 5 of 1 + u_t", "soliton", "density=1 + u_t")
+    refused("density: there is no name ux; did you mean u_x, at column 5 of 1 + ux", "soliton", "density=1 + ux")
+    refused("density: there is no name u_tt; names are u_x, u, x, at column 5 of 1 + u_tt", "soliton", "density=1 + u_tt")
     refused("density: it has to be smooth, and abs is not, at column 5", "soliton", "density=1 + abs(u_x)")
     refused("density: is -1 at the start where x = 0", "soliton", "density=u_x - 1")
     refused("density: is ", "soliton", "density=1/(x - 12.5)")
@@ -325,6 +327,7 @@ def free_nodes():
           "M multisymplectic                not measured a step fails" in made.stdout,
           f"steps that fail break no claim: {made.stdout}")
     refused("cell: there is no name w; names are d, d_t, m_t, u_x", path, "scheme=free-gauss4", "cell=d*w")
+    refused("cell: there is no name xx; names are d, d_t, m_t, u_x", path, "scheme=free-gauss4", "cell=d*xx")
     refused("cell: the energy of the cells is not finite at the start", path, "scheme=free-gauss4", "cell=d_t^2/(d - d)")
     refused("cell: it has to be smooth, and abs is not", path, "scheme=free-gauss4", "cell=abs(d_t)")
     refused("cell: d has a meaning here, and a let of that name needs another one", file_of("let_d", "let: d = 1"),

@@ -163,10 +163,20 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
+/* What the line holds by names: its inputs, and the parameters. */
 static const char *known(size_t i, const void *data)
 {
-    const struct gm_user_system *system = ((const struct reading *)data)->names->wave->system;
-    return i < system->velocities ? system->variables[i].name : NULL;
+    const struct reading *reading = data;
+    const struct gm_user_system *system = reading->names->wave->system;
+    const char *const *inputs = reading->line->inputs + first_input(reading);
+    size_t count = 0;
+    while (inputs[count] && count < i) {
+        count++;
+    }
+    const size_t number = system->parameters + i - count;
+    return inputs[count]                 ? inputs[count]
+           : number < system->velocities ? system->variables[number].name
+                                         : NULL;
 }
 
 /* Refuses the line with a sentence about byte `offset` of its text. */
