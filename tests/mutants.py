@@ -35,7 +35,7 @@ MOST = 4096  # mutants
 HEAD = """#include <fcntl.h>
 #include <stdlib.h>
 #include <sys/mman.h>
-#include <unistd.h>
+int close(int); /* without <unistd.h>, whose names a file may have for functions of its own */
 static _Bool gm_mutant(int number)
 {
     static int chosen = -1;
