@@ -291,6 +291,11 @@ static void four_ways_to_four_vortices(void **unused)
         expect_near(reduced[2 + i], kernels[4 + i], 1e-15);
         assert_true(reduced[i] == carrying[i] && reduced[2 + i] == carrying[2 + i]);
     }
+    /* of all six pairs, the reduced ones too */
+    double of_two, of_four;
+    gm_ode_of(&gm_problem_vortices_reduced)->hamiltonian->energy(&problem, two, &of_two, 1);
+    gm_ode_of(&gm_problem_vortices)->hamiltonian->energy(&problem, four, &of_four, 1);
+    expect_near(of_two, of_four, 1e-14);
 }
 
 /* A passive particle's velocity is that of a vortex that the others do not feel. */

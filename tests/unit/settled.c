@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "core/basics.h"
+#include "core/linear/differences.h"
 #include "core/linear/settled.h"
 #include "core/ode/kernel/stages.h"
 
@@ -246,9 +247,34 @@ static void several_right_sides_are_eliminated(void **unused)
     assert_false(gm_eliminate(2, flat, right));
 }
 
+static int images;
+
+static bool grow(const void *context, const double *from, double *to)
+{
+    (void)context;
+    images++;
+    to[0] = exp(from[0]);
+    to[1] = exp(-2 * from[0]);
+    return true;
+}
+
+/* Four distances, and every extrapolation takes a power of them away: what is left of a smooth map is rounding, and no
+   shorter distances are tried. */
+static void smooth_maps_are_differentiated_at_once(void **unused)
+{
+    (void)unused;
+    const struct gm_map map = {grow, NULL, 1, 2};
+    double slope[2];
+    assert_true(gm_differentiate(&map, &(double){0.5}, &(double){1}, slope));
+    assert_int_equal(images, 8);
+    assert_float_equal(slope[0], exp(0.5), 2e-12);
+    assert_float_equal(slope[1], -2 * exp(-1), 2e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smooth_maps_are_differentiated_at_once),
         cmocka_unit_test(equations_are_solved),
         cmocka_unit_test(failures_say_why),
         cmocka_unit_test(several_right_sides_are_eliminated),

@@ -489,14 +489,19 @@ static void the_quotient_of_powers_is_exact(void **unused)
 static void the_energy_is_of_the_potential_as_written(void **unused)
 {
     (void)unused;
-    static const char *const texts[] = {"field: u\nV: (u^2 - 1)^2/4\nstart: u = -1, u_t = 0\n",
-                                        "field: u\nV: (u^2 - 1)^2/4 + 3\nstart: u = -1, u_t = 0\n"};
-    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+    static const struct {
+        const char *text;
+        double density;
+    } rows[] = {{"field: u\nV: (u^2 - 1)^2/4\nstart: u = -1, u_t = 0\n", 0},
+                {"field: u\nV: (u^2 - 1)^2/4 + 3\nstart: u = -1, u_t = 0\n", 3},
+                {"field: u\nV: 1 - cos(u)\nstart: u = 0, u_t = 0\n", 0},
+                {"field: u\nV: 2 - cos(u)\nstart: u = 0, u_t = 0\n", 1}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct typed typed;
         double y[SIZE];
-        open_typed(&typed, texts[i]);
+        open_typed(&typed, rows[i].text);
         gm_user_line_levels(typed.problem.parameters, &typed.problem.line, 0.05, y);
-        const double energy = i == 0 ? 0 : 3 * 2 * HALF;
+        const double energy = rows[i].density * 2 * HALF;
         assert_true(fabs(gm_wave_energy(&typed.problem, y) - energy) < 1e-12);
         assert_true(fabs(gm_wave_cell_energy(&typed.problem, y) - energy) < 1e-12);
         close_typed(&typed);
