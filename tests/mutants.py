@@ -91,7 +91,8 @@ def places(name, text):
         for kind, pattern in (("comparison", COMPARISON), ("sum", SUM), ("logic", LOGIC)):
             for found in pattern.finditer(line):
                 a, b, op = found["a"], found["b"], found["op"]
-                if declares or '"' in a + b or kind == "sum" and ("[" in line[: found.start("a")][-1:]):
+                quoted = '"' in a + b or line[: found.start("a")].count('"') % 2 != 0
+                if declares or quoted or kind == "sum" and ("[" in line[: found.start("a")][-1:]):
                     continue
                 right = f"({a}) {op} ({b})" if kind == "logic" else f"{a} {op} {b}"
                 wrong = right.replace(f" {op} ", f" {TURNED[op]} ", 1)

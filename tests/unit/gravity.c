@@ -102,8 +102,9 @@ static void revolutions_lead_back(void **unused)
 static void no_motion_from_the_centre(void **unused)
 {
     (void)unused;
-    double y[4] = {0, 0, 1, 0}, still[4] = {1, 2, 0.3, 0.1};
+    double y[4] = {0, 0, 1, 0}, still[4] = {1, 2, 0.3, 0.1}, fast[4] = {1, 0, 1e200, 0};
     assert_false(gm_kepler_flow(2, 1, 0.1, y, y + 2));
+    assert_false(gm_kepler_flow(2, 1, 0.1, fast, fast + 2)); /* its energy is beyond all numbers */
     assert_true(gm_kepler_flow(2, 1, 0, still, still + 2));
     assert_true(still[0] == 1 && still[3] == 0.1);
 }

@@ -417,6 +417,14 @@ static void numbers_are_whole(void **state)
         assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width, &words),
                             cases[i].shown);
     }
+    /* the title of a state is larger than that of a graph */
+    for (size_t graph = 0; graph < 2; graph++) {
+        struct gm_panel panel = {.place = graph ? GM_PLACE_GRAPH : GM_PLACE_STATE, .title = "", .note = "a"};
+        const double top = gm_border_of(&list, &panel, GM_DETAIL_ALL, true, false).top;
+        panel.title = "a title";
+        assert_true(fabs(gm_border_of(&list, &panel, GM_DETAIL_ALL, true, false).top - top -
+                         metrics.line[graph ? GM_TEXT_LABEL : GM_TEXT_PANEL]) < 1e-9);
+    }
     /* nor a part of a bracket */
     const char *const whole = "energy error  |H − H₀| / max(|H₀|, 1/2)";
     const double width = letters_width(metrics.self, GM_TEXT_LABEL, "energy error  |H − H₀| / max(|H₀|, 1");

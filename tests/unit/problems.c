@@ -5,11 +5,13 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "core/basics.h"
+#include "core/expression/graph.h"
 #include "core/functions/functions.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
@@ -298,6 +300,27 @@ static void four_ways_to_four_vortices(void **unused)
     expect_near(of_two, of_four, 1e-14);
 }
 
+/* The energies of vortices as formulas are those that are computed. */
+static void formulas_are_energies(void **unused)
+{
+    (void)unused;
+    for (size_t i = 5; i < 7; i++) {
+        const struct gm_problem problem = problem_of(i);
+        const struct gm_hamiltonian *hamiltonian = gm_ode_of(&problem)->hamiltonian;
+        struct gm_formula graph;
+        gm_node_id node;
+        gm_formula_open(&graph);
+        assert_true(hamiltonian->formula(&problem, &graph, &node));
+        double *values = malloc((graph.count + (size_t)1) * sizeof *values), energy;
+        assert_non_null(values);
+        gm_formula_evaluate(&graph, graph.count, cases[i].y, values);
+        hamiltonian->energy(&problem, cases[i].y, &energy, 1);
+        expect_near(values[node], energy, 1e-14);
+        free(values);
+        gm_formula_close(&graph);
+    }
+}
+
 /* A passive particle's velocity is that of a vortex that the others do not feel. */
 static void passive_particles(void **unused)
 {
@@ -370,6 +393,7 @@ int main(void)
         cmocka_unit_test(parts_make_the_whole),
         cmocka_unit_test(pair_sums),
         cmocka_unit_test(four_ways_to_four_vortices),
+        cmocka_unit_test(formulas_are_energies),
         cmocka_unit_test(passive_particles),
         cmocka_unit_test(kepler_motion),
     };

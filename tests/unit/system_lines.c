@@ -417,6 +417,9 @@ static void studies_are_those_of_the_file(void **unused)
     gm_lane_close(lane);
     gm_system_scene_close(scene);
 
+    scene = scene_of(OSCILLATOR "work: ; halvings 1\n");
+    assert_int_equal(scene->work->halvings, 1);
+    gm_system_scene_close(scene);
     scene = scene_of(OSCILLATOR "stability: until=9; k 1, 2; steps usual; schemes usual\n");
     assert_true(scene->stability->step_count > 2 && !scene->stability->schemes &&
                 !scene->stability->throughout);

@@ -87,6 +87,7 @@ static void pi_axes_have_fractions_and_multiples(void **state)
     assert_string_equal(labels(GM_PI, 0, 10 * PI, 6), "0 2π 4π 6π 8π 10π");
     assert_string_equal(labels(GM_PI, 0, 50 * PI, 6), "0 10π 20π 30π 40π 50π");
     assert_string_equal(labels(GM_PI, 0, 2000 * PI, 6), "0 500π 1000π 1500π 2000π");
+    assert_string_equal(labels(GM_PI, 0, PI, 2), "0 π"); /* no step makes three */
     assert_string_equal(labels(GM_PI, 0, 0.5, 6), "0 0.1 0.2 0.3 0.4 0.5");
 }
 
