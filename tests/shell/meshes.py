@@ -463,7 +463,24 @@ def nodes_alone():
     compare("schemes that hold the mesh have their own", held["x_dot"], still["x_dot"], 1e-14)
 
 
+def laws_of_variable_meshes():
+    """The printed laws of leapfrog's wave on a mesh in space and time, from the levels of the state."""
+    made = run("wave", "steps=41", "--state", "--json")  # the steepest place is that where the ring closes
+    lane = json.loads(made.stdout)
+    state, observables = lane["state"], lane["observables"]
+    points = len(state) // 2
+    now, before, dt, dx = state[:points], state[points:2 * points], lane["parameters"]["dt"], 2 * math.pi / points
+    after = [2 * now[j] - before[j] + (dt / dx) ** 2 * (now[(j + 1) % points] - 2 * now[j] + now[j - 1]) for j in range(points)]
+    old, new = ([(((next_[j] - first[j]) / dt) ** 2 + ((at[(j + 1) % points] - at[j]) / dx) ** 2) / 2 for j in range(points)]
+                for first, next_, at in ((before, now, before), (now, after, now)))
+    near("energy law of a cell", observables["energy_law_residual"],
+         max(abs(b - a) for a, b in zip(old, new, strict=True)) / max(new), 1e-12)
+    near("energy law of all cells", observables["energy_sum_residual"], abs(sum(new) - sum(old)) / sum(new), 1e-12)
+    near("momentum law", observables["momentum_law_residual"], max(abs(new[j] - new[j - 1]) for j in range(points)) / max(new), 1e-12)
+
+
 densities()
+laws_of_variable_meshes()
 known_meshes()
 smoothing()
 free_nodes()
