@@ -410,7 +410,7 @@ found = written(ROUND.replace("rectangle 2 1 16 10", "annulus 1 2 24 3").replace
 check(abs(found["length"] - (48 * math.sin(math.pi / 24)) ** 2 / 2) < 1e-12, f"s along a circle: {found}")
 
 # values made of forms: a steady flow whose vorticity at walls is that of the velocity is the steady one of form-stokes
-found = written("""geomint: 1
+LID = """geomint: 1
 mesh: rectangle 1 1 10
 field: w = dual 2-form
 unknown: psi = 0-form
@@ -425,8 +425,15 @@ observe: least = min(psi)
 schemes: rk4
 dt: 0.0008
 until: 1
-""")
+"""
+found = written(LID)
 check(abs(found["least"] - observed("form-stokes", "mesh=rectangle 1 1 10")["psi_least"]) < 1e-13, f"walls of forms: {found}")
+# from the start on: the circulation of the lid, its velocity times its length
+with tempfile.TemporaryDirectory() as folder:
+    with open(os.path.join(folder, "lid.system"), "w", encoding="utf-8") as stream:
+        stream.write(LID)
+    state = json.loads(run([os.path.join(folder, "lid.system"), "steps=0", "--state", "--json"])[1])["state"]
+check(abs(sum(state) + 1) < 1e-14, f"walls of forms at the start: {sum(state)}")
 MADE = (HELD.replace("field: u = 0-form", "field: u = 0-form, v = 0-form\nunknown: q = 0-form\nequation: q; laplace(q) = 0\n"
                      "boundary: left q = v\nboundary: right q = 1 + t^2\nrate: v = 2*t").replace("start: u = x", "start: u = x, v = 0")
         .replace("left u = t^2", "left u = v").replace("right u = 1 + t^2", "right u = q").replace("exact: u =", "exact: q = x + t^2, u ="))

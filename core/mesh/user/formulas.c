@@ -163,7 +163,7 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
-/* What the line holds by names: its inputs, and the parameters. */
+/* Returns a name for proposals: the inputs of the line, then the parameters. */
 static const char *known(size_t i, const void *data)
 {
     const struct reading *reading = data;
