@@ -104,7 +104,7 @@ static int64_t divisor(int64_t a, int64_t b)
 }
 
 /* Euclid's algorithm for the prime and a, stopped at the first remainder below 2^20: a = remainder / factor. Of random
-   residues one in two million is such a fraction. */
+   residues one in two million is such a fraction. Nothing divides both. */
 static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator)
 {
     const int64_t bound = (int64_t)1 << 20;
@@ -126,7 +126,7 @@ static bool find_fraction(gm_residue a, int64_t *numerator, int64_t *denominator
 bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole)
 {
     const int64_t largest = (int64_t)1 << 53;
-    int64_t common = 1, numerator, denominator, shared = 0;
+    int64_t common = 1, numerator, denominator;
     gm_residue first = 0;
     for (size_t i = 0; i < count && !first; i++) {
         first = residues[i] ? gm_residue_inverse(residues[i]) : 0;
@@ -141,17 +141,13 @@ bool gm_residues_whole(const gm_residue *residues, size_t count, double *whole)
         }
         common *= more;
     }
+    /* one of them is the common denominator itself, of which no factor divides all the others */
     for (size_t i = 0; i < count; i++) {
         find_fraction(gm_residue_times(first, residues[i]), &numerator, &denominator);
         if (llabs(numerator) > largest / (common / denominator)) {
             return false;
         }
-        numerator *= common / denominator;
-        shared = divisor(shared, numerator);
-        whole[i] = (double)numerator;
-    }
-    for (size_t i = 0; i < count && shared; i++) {
-        whole[i] /= (double)shared;
+        whole[i] = (double)(numerator * (common / denominator));
     }
     return true;
 }
