@@ -102,6 +102,21 @@ refused 1 'scheme, column 23: 7 steps cannot be shared by 2 bases in turns' cert
 sed -i 's/turns.scheme, .*/turns.scheme, rk44/' deep/mixed.scheme
 refused 1 'deep/mixed.scheme:2:21: there is no scheme "rk44"; did you mean rk4' certify deep/mixed.scheme
 
+# the steps of a symmetric scheme of order 2 that has no coefficients give the order that they give to any other one
+thrice='let: g = 1/(2 - 2^(1/3)); g, 1 - 2*g, g'
+while read -r order word; do
+    status 0 certify "$word"
+    grep -q "^  order $order, measured" out || fail "steps of $word: $(cat out)"
+done <<END
+4 composition(boris2; $thrice)
+4 composition(magnetic-splitting2; let: g = 1/(4 - 4^(1/3)); g, g, 1 - 4*g, g, g)
+4 composition(avf2; $thrice)
+4 composition(composition(kahan2; 1/2, 1/2); $thrice)
+6 composition(boris2; let: a = 0.78451361047755726382; let: b = 0.23557321335935813368; a, b, -1.17767998417887100695, 1.31518632068391121889, -1.17767998417887100695, b, a)
+2 composition(boris2; 1.35, -1.7, 1.35)
+2 composition(boris2; 1/3, 2/3)
+END
+
 # a wrong one
 "$geomint" certify 'explicit(order: 4; 0,0,0,0|1/2,0,0,0|0,1/2,0,0|0,0,1,0; 1/3,1/6,1/3,1/6)' >out 2>err
 [ $? = 4 ] || fail 'weights exchanged: not refuted'

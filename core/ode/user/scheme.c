@@ -1026,8 +1026,29 @@ static void tell(const struct making *making, struct own *self, const char *name
     row->reference = reference->said ? words_of(making, reference->value) : "user-defined";
 }
 
+/* The order of a composition of steps of one symmetric scheme without coefficients. The conditions on the lengths of
+   the steps are the same for all symmetric schemes of its order, of which Gauss's method is one. Hairer, Lubich & Wanner
+   (2006), section III.3; 0: not known. */
+static int order_of_steps(const struct making *making, const struct gm_scheme *base)
+{
+    static const char *const gauss[] = {[2] = "midpoint", [4] = "gauss4", [6] = "gauss6", [8] = "gauss8"};
+    const size_t order = (size_t)base->order;
+    const struct gm_written_line *steps = line_of(making, GM_SCHEME_WORD_STEPS);
+    struct gm_coefficients exact = {.stages = 0};
+    if (!(base->claims & GM_SYMMETRIC) || order >= GM_COUNT(gauss) || !gauss[order]) {
+        return 0;
+    }
+    const size_t count = (size_t)steps->columns;
+    struct named of_gauss = {steps->columns, gm_arena_take(making->arena, count, sizeof *of_gauss.at)};
+    for (size_t i = 0; i < count; i++) {
+        of_gauss.at[i] = gm_scheme_find(gauss[order]);
+    }
+    open_exact(making, &exact, &of_gauss, steps->numbers);
+    return exact.stages > 0 ? gm_theory_of(making->arena, &exact).order : 0;
+}
+
 /* Claims of a composition that follow from its bases if theory does not apply: what a single base preserves, and what
-   follows from the order of the list. A symmetric scheme has an even order. */
+   follows from the steps and the order of the list. A symmetric scheme has an even order. */
 static struct gm_theory theory_of_bases(const struct making *making, struct gm_scheme *row,
                                         const struct named *bases)
 {
@@ -1042,6 +1063,8 @@ static struct gm_theory theory_of_bases(const struct making *making, struct gm_s
     }
     theory.symplectic = all & GM_SYMPLECTIC;
     theory.order += theory.symmetric ? theory.order % 2 : 0;
+    const int of_steps = bases->count == 1 ? order_of_steps(making, bases->at[0]) : 0;
+    theory.order = of_steps > theory.order ? of_steps : theory.order;
     all = bases->count == 1 ? all : 0;
     row->claims = theory.symmetric && (all & both) == both ? all : all & ~both;
     return theory;
@@ -1107,7 +1130,7 @@ static void finish(const struct making *making, struct own *self, const char *na
     if (row->exact && !tried && (written->order == 0 || !claims->said)) {
         theory = gm_theory_of(making->arena, row->exact);
     }
-    if (!row->exact && written->kind == GM_WRITTEN_COMPOSITION) {
+    if (!row->exact && !tried && written->kind == GM_WRITTEN_COMPOSITION) {
         theory = theory_of_bases(making, row, &schemes[GM_SCHEME_WORD_BASE]);
     }
     const struct gm_scheme *called =
