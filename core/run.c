@@ -62,7 +62,8 @@ const double *gm_run_state(const struct gm_run *run)
 
 const double *gm_run_memory(const struct gm_run *run)
 {
-    return run->scheme->family->memory ? half(run, run->current) + state_count(run) + carry_count(run) : NULL;
+    return gm_scheme_has_memory(run->scheme) ? half(run, run->current) + state_count(run) + carry_count(run)
+                                             : NULL;
 }
 
 static double *events_of(const struct gm_run *run, int which)

@@ -148,6 +148,7 @@ struct gm_family {
     double (*wave_energy)(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y,
                           const double *memory);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
+    bool joins;         /* the memory changes no step: with it two flows of two steps are one */
 };
 
 /* Returns true if theory knows the coefficients of a scheme. */
@@ -156,11 +157,18 @@ static inline bool gm_scheme_has_coefficients(const struct gm_scheme *scheme)
     return scheme->exact || scheme->family->coefficients_open;
 }
 
+/* Returns true if steps follow from more than the state. */
+static inline bool gm_scheme_has_memory(const struct gm_scheme *scheme)
+{
+    return scheme->family->memory && !scheme->family->joins;
+}
+
 /* Returns true if steps of fixed length follow from the state alone; and if a repeated step is the same to the bit. */
 static inline bool gm_scheme_has_one_step(const struct gm_scheme *scheme)
 {
     const struct gm_family *family = scheme->family;
-    return !family->adaptive && !family->memory && !family->by_tolerance && !family->not_resumable;
+    return !family->adaptive && !gm_scheme_has_memory(scheme) && !family->by_tolerance &&
+           !family->not_resumable;
 }
 static inline bool gm_scheme_repeats_steps(const struct gm_scheme *scheme)
 {

@@ -91,6 +91,17 @@ cmp whole.mp4 joined.mp4 || fail 'shards joined differ from the movie'
 "$geomint" render disc --shard 2/3 2>err && fail 'a shard of one picture'
 "$geomint" render $waves --shard 4/3 2>err && fail 'a shard too many'
 
+# a run goes on from a checkpoint with the bits of the run that nobody stopped, also where flows of two steps are one
+bits() {
+    "$geomint" run outer-planets scheme="$1" dt=100 --json --state $2 2>err | grep -o '"state":.*'
+}
+for split in 'saba2(kepler, interaction)' wisdom-holman2 'split(kepler, interaction; 1/3, 1/2, 2/3, 1/2)' \
+    'projected(saba2(kepler, interaction); H)'; do
+    bits "$split" 'steps=137 --checkpoint planets.checkpoint' >part && bits "$split" 'steps=300' >undisturbed &&
+        bits "$split" 'steps=300 --continue planets.checkpoint' >resumed || fail "planets by $split"
+    cmp -s undisturbed resumed || fail "$split from a checkpoint differs: $(cat undisturbed resumed)"
+done
+
 # the failures of lanes are told by frames that are all there, too
 limit="disc scheme=explicit-euler dt=2 until=1000 --frames 20 --size 320x200 --strict --out failed"
 "$geomint" render $limit 2>first

@@ -209,7 +209,7 @@ static void steps_at_once(void **unused)
     static const double starts[2][N] = {{0, 0.1, 0.435889894354067, 0.1}, {0, 1.2, 0.3, 0.2}};
     for (size_t i = 0; i < 4 * gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i / 4);
-        if (!gm_scheme_fits(scheme, &gm_problem_henon_heiles) || scheme->family->memory ||
+        if (!gm_scheme_fits(scheme, &gm_problem_henon_heiles) || gm_scheme_has_memory(scheme) ||
             strcmp(gm_tangent_word(scheme), "exact") != 0) {
             continue;
         }

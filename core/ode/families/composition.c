@@ -18,8 +18,8 @@ struct work {
 bool gm_scheme_composes(const struct gm_scheme *scheme)
 {
     const struct gm_family *family = scheme->family;
-    return family->kind == &gm_kind_ode && !family->memory && !family->adaptive && !family->doubled &&
-           !family->not_resumable;
+    return family->kind == &gm_kind_ode && !gm_scheme_has_memory(scheme) && !family->adaptive &&
+           !family->doubled && !family->not_resumable;
 }
 
 bool gm_scheme_is_composition(const struct gm_scheme *scheme)

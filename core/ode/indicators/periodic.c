@@ -276,7 +276,8 @@ static void find(struct gm_arena *arena, void *data)
     search.size = search.n + (orbit->free ? 1 : 0);
     struct gm_run *run = open_run(orbit, arena, orbit->start, orbit->period);
     const struct gm_family *family = orbit->scheme->family;
-    const size_t memory = family->memory ? family->memory(run->problem, orbit->scheme) : 0;
+    const size_t memory =
+        gm_scheme_has_memory(orbit->scheme) ? family->memory(run->problem, orbit->scheme) : 0;
     search.end = gm_arena_take(arena, all, sizeof(double));
     search.trial = gm_arena_take(arena, all, sizeof(double));
     search.slope = gm_arena_take(arena, all, sizeof(double));

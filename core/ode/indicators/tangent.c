@@ -211,7 +211,7 @@ static void open_all(struct gm_arena *arena, void *data)
     tangent->n = run->problem->n;
     tangent->units = doubles(tangent, tangent->n);
     find_units(tangent);
-    tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
+    tangent->memory = gm_scheme_has_memory(run->scheme) ? family->memory(run->problem, run->scheme) : 0;
     const size_t size = gm_tangent_size(tangent);
     tangent->before = doubles(tangent, size);
     tangent->plus = doubles(tangent, size);

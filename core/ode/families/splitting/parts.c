@@ -92,11 +92,30 @@ struct work {
     /* values: of a part's tape. If a step begins with the flow it ends with, they are known at the state `kept`. */
     double *values, *scratch, *moved, *kept, *member, *matrix;
     bool known, jacobi; /* jacobi: the state is in Jacobi coordinates */
-    /* If all flows are in Jacobi coordinates: the state that a task ended with, and the one before the conversion, and
-       before a flow that the next step joins, from which the next task continues. No bits depend on the tasks. */
-    double *ended, *carried;
-    bool carries, continued;
+    bool carries,
+        continued; /* the task carries its end to the next one; it continues from that of the last one */
 };
+
+/* If all flows are in Jacobi coordinates, no bits depend on the tasks that a run is made in: its memory is dt, the state
+   that a task ended with, and the one before the conversion, and before a flow that the next step joins, from which the
+   next task continues. */
+enum { CARRIED_DT, ENDED };
+
+static bool is_jacobi_part(const struct gm_problem *problem, const struct gm_named_part *named)
+{
+    const bool known = strcmp(named->name, "kepler") == 0 || strcmp(named->name, "interaction") == 0;
+    return known && gm_ode_of(problem)->gravity && !named->by && !gm_part_is_given(problem, named->name);
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_parts_row *row = scheme->coefficients;
+    bool carries = row->parts > 1;
+    for (size_t i = 0; i < row->parts; i++) {
+        carries = carries && is_jacobi_part(problem, &row->list[i]);
+    }
+    return carries ? ENDED + 2 * problem->n * problem->m : 0;
+}
 
 static bool is_jacobi(const struct part *part)
 {
@@ -265,7 +284,7 @@ static void open_part(struct work *work, struct part *part, const struct gm_name
     part->by.scheme = named->by;
     if (!given && ode->kepler_split && strcmp(name, "kepler") == 0) {
         *part = (struct part){.how = KEPLER, .inverse_mass = 1, .mu = 1};
-    } else if (!given && ode->gravity && (strcmp(name, "kepler") == 0 || strcmp(name, "interaction") == 0)) {
+    } else if (is_jacobi_part(work->problem, named)) {
         part->how = name[0] == 'k' ? JACOBI_KEPLER : JACOBI_KICK;
     } else if (!given && ode->kepler_split && strcmp(name, "interaction") == 0) {
         part->force = ode->kepler_split->perturbing_force;
@@ -427,13 +446,6 @@ static void open_work(struct gm_arena *arena, void *data)
         work->flows[i].entries = gm_arena_take(arena, most, sizeof *work->flows[i].entries);
         largest = n + part->flow.slopes.count > largest ? n + part->flow.slopes.count : largest;
     }
-    const size_t all = n * work->problem->m;
-    work->carries = work->flow_count > 1;
-    for (size_t i = 0; i < work->flow_count; i++) {
-        work->carries = work->carries && is_jacobi(&work->parts[work->flows[i].part]);
-    }
-    work->ended = gm_arena_take(arena, work->carries ? 2 * all : 0, sizeof *work->ended);
-    work->carried = work->ended + (work->carries ? all : 0);
     work->values = gm_arena_take(arena, largest + 6 * n, sizeof *work->values);
     work->scratch = work->values + largest;
     work->moved = work->scratch + 3 * n;
@@ -663,7 +675,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_progress *
         const bool joined = work->flows[0].part == work->flows[i].part;
         if (work->carries && joined && i > 0 && i + 1 == work->flow_count &&
             progress->done + 1 == task->steps) {
-            memcpy(work->carried, task->out, n * m * sizeof *work->carried);
+            memcpy(task->memory_out + ENDED + n * m, task->out, n * m * sizeof *task->out);
         }
         if (h != 0 && !advance_flow(task, work, i, h, task->out, progress)) {
             progress->unsolved.obstacle = GM_NOT_FINITE;
@@ -678,10 +690,12 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct work *work = task->workspace;
     struct gm_progress progress = {.status = GM_OK};
-    const size_t size = task->problem->n * task->problem->m * sizeof(double);
-    work->continued = work->carries && work->dt == task->dt && memcmp(work->ended, task->y, size) == 0;
+    const size_t all = task->problem->n * task->problem->m, size = all * sizeof(double);
+    work->carries = task->memory && memory(task->problem, task->scheme) > 0;
+    work->continued = work->carries && task->memory[CARRIED_DT] == task->dt &&
+                      memcmp(task->memory + ENDED, task->y, size) == 0;
     work->jacobi = work->continued;
-    memcpy(task->out, work->continued ? work->carried : task->y, size);
+    memcpy(task->out, work->continued ? task->memory + ENDED + all : task->y, size);
     for (size_t i = 0; i < work->flow_count && work->dt != task->dt; i++) {
         const enum how how = work->parts[work->flows[i].part].how;
         if (how == ROTATION || how == EXPONENTIAL) {
@@ -694,12 +708,12 @@ static struct gm_progress loop(const struct gm_task *task)
         progress.done++;
     }
     if (work->carries && work->flows[0].part != work->flows[work->flow_count - 1].part) {
-        memcpy(work->carried, task->out, size);
+        memcpy(task->memory_out + ENDED + all, task->out, size);
     }
     convert(work, false, task->out);
     if (work->carries) {
-        memcpy(work->ended, task->out, size);
-        work->ended[0] = progress.done == task->steps ? work->ended[0] : NAN;
+        memcpy(task->memory_out + ENDED, task->out, size);
+        task->memory_out[CARRIED_DT] = progress.done == task->steps ? task->dt : 0;
     }
     return progress;
 }
@@ -773,6 +787,8 @@ const struct gm_family gm_family_parts = {
     .title = "splitting by parts",
     GM_ROWS_LISTED,
     .loop = loop,
+    .memory = memory,
+    .joins = true,
     .workspace_open = workspace_open,
     .workspace_close = gm_workspace_close,
     .lacks = lacks,
