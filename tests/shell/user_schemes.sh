@@ -117,6 +117,12 @@ done <<END
 2 composition(boris2; 1/3, 2/3)
 END
 
+# a part with coefficients loses energy, though in short steps only round-off shows
+status 4 certify 'composition(gauss8, avf4; claims: keeps energy; 1/2, 1/2)'
+grep -q 'H conserves energy *BROKEN.*refuted by theory' out || fail "gauss8 and avf4 in turns: $(cat out)"
+status 0 certify 'composition(avf2, avf4; claims: keeps energy; 1/2, 1/2)'
+grep -q 'H conserves energy *holds' out || fail "avf2 and avf4 in turns: $(cat out)"
+
 # a wrong one
 "$geomint" certify 'explicit(order: 4; 0,0,0,0|1/2,0,0,0|0,1/2,0,0|0,0,1,0; 1/3,1/6,1/3,1/6)' >out 2>err
 [ $? = 4 ] || fail 'weights exchanged: not refuted'

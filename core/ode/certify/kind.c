@@ -12,6 +12,7 @@
 
 #include "core/basics.h"
 #include "core/ode/certify/measure.h"
+#include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
 #include "core/ode/kernel/loops.h"
@@ -569,6 +570,23 @@ static bool doubts_order(const struct gm_certificate *certificate, const struct 
            (!certificate->ladder.settled && certificate->order <= 0.95 * scheme->order);
 }
 
+/* Returns true if the steps of a composition that lose energy are all of one scheme with coefficients, and of one sign.
+   Each loses the same leading term, and steps between them that conserve the energy change it in higher orders alone. */
+static bool loses_energy(const struct gm_scheme *scheme)
+{
+    const struct gm_substeps *steps = gm_scheme_is_composition(scheme) ? scheme->coefficients : NULL;
+    const struct gm_substep *first = NULL;
+    bool same = steps != NULL;
+    for (int i = 0; same && i < steps->count; i++) {
+        const struct gm_substep *step = &steps->at[i];
+        if (!(step->scheme->claims & GM_KEEPS_ENERGY)) {
+            first = first ? first : step;
+            same = step->scheme == first->scheme && step->fraction * first->fraction > 0;
+        }
+    }
+    return same && first && gm_scheme_has_coefficients(first->scheme);
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -599,6 +617,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     subject.start = start ? start : subject.start;
     subject.unit = fmax(subject.unit, subject.passed / 2);
     measure(certificate, &subject);
+    certificate->refuted = loses_energy(scheme) ? scheme->claims & GM_KEEPS_ENERGY : 0;
     follow_all(certificate, &subject);
     /* an order needs short steps, and the dt of a map may be long */
     for (int shorter = 0; doubts_order(certificate, scheme) && shorter < 4; shorter++) {
@@ -638,6 +657,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
         }
         gm_subject_close(&subject);
     }
+    certificate->refuted = loses_energy(scheme) ? scheme->claims & GM_KEEPS_ENERGY : 0;
     /* a scheme that chooses its order has to follow its tolerance; a user's has at least the order of its parts */
     const double least = scheme->order == 0 ? 0.5 : 0.95 * scheme->order;
     certificate->order_holds = certificate->order > least && (scheme->order == 0 || scheme->word ||
