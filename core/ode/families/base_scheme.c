@@ -23,27 +23,32 @@ void gm_base_reset(const struct gm_base_scheme *base)
     }
 }
 
-enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_task *task, double h,
-                            const double *y, double *out, struct gm_progress *progress)
+void gm_base_begin(struct gm_base_scheme *base, const struct gm_task *task)
 {
-    struct gm_task step = *task; /* fewer instructions than to set what is not used */
-    step.problem = &base->problem;
-    step.scheme = base->scheme;
-    step.dt = h;
-    step.steps = 1;
-    step.steps_before = base->steps_before;
-    step.y = y;
-    step.out = out;
-    step.carry = base->carry;
-    step.carry_out = base->carry_out;
-    step.memory = step.memory_out = step.trace = NULL;
-    step.workspace = base->workspace;
-    if (base->carry) { /* a scheme without compensation leaves it unchanged */
-        memcpy(base->carry_out, base->carry, base->problem.n * base->problem.m * sizeof *y);
+    struct gm_task *step = &base->step;
+    *step = *task;
+    step->problem = &base->problem;
+    step->scheme = base->scheme;
+    step->steps = 1;
+    step->steps_before = 0;
+    step->carry = step->memory = NULL;
+    step->carry_out = step->memory_out = step->trace = NULL;
+    step->workspace = base->workspace;
+    base->advance = gm_scheme_loop(base->scheme, &base->problem);
+}
+
+enum gm_status gm_base_step(struct gm_base_scheme *base, double h, const double *y, double *out,
+                            struct gm_progress *progress)
+{
+    struct gm_task *step = &base->step;
+    step->dt = h;
+    step->y = y;
+    step->out = out;
+    if (step->carry) { /* a scheme without compensation leaves it unchanged */
+        memcpy(step->carry_out, step->carry, base->problem.n * base->problem.m * sizeof *y);
     }
-    gm_loop *advance = base->advance ? base->advance : gm_scheme_loop(base->scheme, &base->problem);
     const struct gm_progress made =
-        advance ? advance(&step) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
+        base->advance ? base->advance(step) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
     progress->evaluations += made.evaluations;
     progress->solves += made.solves;
     progress->iterations += made.iterations;

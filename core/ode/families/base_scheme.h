@@ -10,10 +10,8 @@ struct gm_base_scheme {
     const struct gm_scheme *scheme;
     struct gm_problem problem;
     void *workspace;
-    gm_loop *advance;    /* its loop, if the caller has found it for several steps; else NULL */
-    const double *carry; /* the compensations of the sums, before and after the next step; NULL: plain */
-    double *carry_out;
-    int64_t steps_before; /* the step is not counted as the run's first if the run has made some */
+    gm_loop *advance;    /* its loop */
+    struct gm_task step; /* the next one; the caller may set what gm_base_begin leaves out */
 };
 
 /* Opens it for this number of members, in the body of an arena, which closes it. */
@@ -21,8 +19,10 @@ void gm_base_open(struct gm_arena *arena, struct gm_base_scheme *base, const str
                   const struct gm_problem *problem, size_t members);
 /* Forgets what is derived from an earlier state. */
 void gm_base_reset(const struct gm_base_scheme *base);
-/* out := a step h from y, with the task's limit and settings; adds its costs to the progress. */
-enum gm_status gm_base_step(const struct gm_base_scheme *base, const struct gm_task *task, double h,
-                            const double *y, double *out, struct gm_progress *progress);
+/* Prepares steps with the task's limit and settings. Their sums are plain, and each counts as the first of a run. */
+void gm_base_begin(struct gm_base_scheme *base, const struct gm_task *task);
+/* out := a step h from y; adds its costs to the progress. */
+enum gm_status gm_base_step(struct gm_base_scheme *base, double h, const double *y, double *out,
+                            struct gm_progress *progress);
 
 #endif

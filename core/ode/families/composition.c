@@ -91,23 +91,22 @@ static struct gm_progress loop(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     const double *y = task->y, *carry = task->carry;
     for (int i = 0; i < substeps->count; i++) {
-        work->bases[i].steps_before = task->steps_before;
-        work->bases[i].advance = gm_scheme_loop(substeps->at[i].scheme, task->problem);
+        gm_base_begin(&work->bases[i], task);
+        work->bases[i].step.steps_before = task->steps_before;
     }
     for (; progress.done < task->steps; progress.done++) {
         for (int i = 0; i < substeps->count; i++) {
             struct gm_base_scheme *base = &work->bases[i];
             const bool there = y == task->out;
             double *out = there ? work->state : task->out;
-            base->carry = carry;
-            base->carry_out = there ? work->carry : task->carry_out;
-            progress.status =
-                gm_base_step(base, task, substeps->at[i].fraction * task->dt, y, out, &progress);
+            base->step.carry = carry;
+            base->step.carry_out = there ? work->carry : task->carry_out;
+            progress.status = gm_base_step(base, substeps->at[i].fraction * task->dt, y, out, &progress);
             if (progress.status != GM_OK) {
                 return progress;
             }
             y = out;
-            carry = carry ? base->carry_out : NULL;
+            carry = carry ? base->step.carry_out : NULL;
         }
     }
     if (y != task->out) {

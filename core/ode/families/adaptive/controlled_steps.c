@@ -104,7 +104,7 @@ static enum gm_status monitored_step(const struct gm_task *task, struct work *wo
     if (!(middle > 0 && isfinite(middle) && *h != 0)) {
         return GM_STEP_COLLAPSE;
     }
-    const enum gm_status status = gm_base_step(&work->base, task, *h, y, work->after, progress);
+    const enum gm_status status = gm_base_step(&work->base, *h, y, work->after, progress);
     if (status != GM_OK) {
         return status;
     }
@@ -123,7 +123,7 @@ static enum gm_status error_controlled_step(const struct gm_task *task, struct w
     double error = 0;
     do {
         *h = memory[CONTROL];
-        const enum gm_status status = gm_base_step(&work->base, task, *h, y, work->after, progress);
+        const enum gm_status status = gm_base_step(&work->base, *h, y, work->after, progress);
         if (status != GM_OK) {
             return status;
         }
@@ -141,8 +141,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     struct work *work = members->family;
     const size_t bytes = members->n * sizeof(double);
     double h;
-    work->base.carry = members->carry;
-    work->base.carry_out = work->carry;
+    gm_base_begin(&work->base, task);
+    work->base.step.carry = members->carry;
+    work->base.step.carry_out = work->carry;
     const enum gm_status status = (row->by_error ? error_controlled_step : monitored_step)(
         task, work, members->y, members->memory, &h, progress);
     if (status != GM_OK) {
@@ -162,8 +163,9 @@ static enum gm_status start(const struct gm_task *task)
     double *memory = task->memory_out, h;
     struct gm_progress none = {0};
     if (row->by_error) {
-        work->base.carry = task->carry;
-        work->base.carry_out = work->carry;
+        gm_base_begin(&work->base, task);
+        work->base.step.carry = task->carry;
+        work->base.step.carry_out = work->carry;
         memory[CONTROL] = task->dt;
         return error_controlled_step(task, work, task->y, memory, &h, &none);
     }

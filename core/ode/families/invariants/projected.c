@@ -39,8 +39,7 @@ static enum gm_status project_symmetrically(struct gm_held *held, const struct g
     gm_conserved_slopes(&held->conserved, y, held->start_slopes);
     for (int i = 0; i < GM_HELD_MOST; i++) {
         gm_held_move(y, held->start_slopes, mu, count, n, held->move);
-        const enum gm_status status =
-            gm_base_step(&held->base, task, task->dt, held->move, held->next, progress);
+        const enum gm_status status = gm_base_step(&held->base, task->dt, held->move, held->next, progress);
         if (status != GM_OK) { /* from moved states it is this iteration that fails */
             return i == 0 ? status : gm_held_fails(held, values, progress);
         }
@@ -68,10 +67,11 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     struct gm_held *held = members->family;
     const double *values = members->memory + GM_HELD_VALUES;
     enum gm_status status = GM_OK;
+    gm_base_begin(&held->base, task);
     if (held->holding->symmetric) {
         status = project_symmetrically(held, task, members->y, values, progress);
     } else {
-        status = gm_base_step(&held->base, task, task->dt, members->y, held->z, progress);
+        status = gm_base_step(&held->base, task->dt, members->y, held->z, progress);
         memcpy(held->next, held->z, held->n * sizeof *held->z);
         if (status == GM_OK && held->holding->constraints) {
             status = gm_manifold_project(&held->base.problem, held->z) ? GM_OK : GM_NO_CONVERGENCE;

@@ -61,7 +61,8 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     struct gm_held *held = members->family;
     double *memory = members->memory, gamma;
-    enum gm_status status = gm_base_step(&held->base, task, task->dt, members->y, held->z, progress);
+    gm_base_begin(&held->base, task);
+    enum gm_status status = gm_base_step(&held->base, task->dt, members->y, held->z, progress);
     for (size_t c = 0; c < held->n; c++) {
         held->move[c] = held->z[c] - members->y[c];
     }

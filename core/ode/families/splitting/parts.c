@@ -536,10 +536,11 @@ static void make_matrix(struct work *work, struct flow *flow, double h)
 }
 
 /* Makes a step of the part's own scheme. */
-static bool advance_steps(const struct gm_task *task, struct work *work, const struct part *part, double h,
+static bool advance_steps(const struct gm_task *task, struct work *work, struct part *part, double h,
                           double *y, struct gm_progress *progress)
 {
-    const enum gm_status status = gm_base_step(&part->by, task, h, y, work->moved, progress);
+    gm_base_begin(&part->by, task);
+    const enum gm_status status = gm_base_step(&part->by, h, y, work->moved, progress);
     memcpy(y, work->moved, work->problem->n * sizeof *y);
     return status == GM_OK;
 }
