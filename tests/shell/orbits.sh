@@ -58,6 +58,15 @@ assert len(rows) == 2 and all(abs(float(r["v"]) - math.sqrt(float(r["c"]) / (1 -
 # a start that does not return leads to a cycle that attracts
 status 0 orbit clock --json
 holds 'near(d["period"], 6.291054045776003, 1e-11) and near(d["multipliers"][1][0], 0.5330684683745183, 1e-9)'
+# a motion that only decays is no orbit; an event that changes the energy leaves one multiplier of 1: a ball whose speed p
+# becomes 0.8 p and then sqrt(p^2 + 0.2) has the other one 0.64
+printf 'rate: x = v, v = -x - 0.1*v\nevent: x = 0, v > 0; v = sqrt(v^2 + 0.2)\nstart: x = 0, v = 0.6\n' >still.system
+status 2 orbit ./still.system fix=x --json
+holds 'd["status"] == "an equilibrium"'
+grep -q 'an orbit moves' err || fail "the sentence of a motion that decays: $(cat err)"
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^2/2\nevent: q = 0, p > 0; p = sqrt(p^2 + 0.2)\nevent: q = 0, p < 0; p = 0.8*p\nstart: q = 1, p = 0\n' >pushed.system
+status 0 orbit ./pushed.system --json
+holds 'd["by_structure"] == 1 and d["stability"] == "stable" and near(d["period"], 2*math.pi, 1e-12) and near(d["multipliers"][1][0], 0.64, 1e-9)'
 # the numbers are of an integrator of order 8 with the tolerance 1e-13, and Newton's method
 printf 'rate: x = y, y = (1 - x^2)*y - x\nstart: x = 2, y = 0\n' >vdp.system
 status 0 orbit ./vdp.system --json

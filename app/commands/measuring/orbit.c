@@ -128,7 +128,8 @@ static size_t structure_of(const struct work *work)
 {
     const struct gm_scene *scene = work->lane->scene;
     size_t count = work->orbit.free;
-    for (size_t i = 0; i < scene->observable_count && work->orbit.free; i++) {
+    const struct gm_events *events = work->lane->problem.events; /* whose changes may keep no invariant */
+    for (size_t i = 0; i < scene->observable_count && work->orbit.free && !(events && events->changes); i++) {
         count += scene->observables[i].error && scene->observables[i].kept;
     }
     return count < work->lane->problem.n ? count : work->lane->problem.n;
@@ -317,6 +318,10 @@ int gm_command_orbit(const struct gm_options *options)
         print_json(work);
     } else if (!gm_options_take_stdout(options)) {
         print_text(work);
+    }
+    if (work->orbit.status == GM_PERIODIC_EQUILIBRIUM) {
+        gm_complain(
+            "the motion rests there, or comes to rest: an orbit moves; start farther away, or without fix=");
     }
     int status = work->orbit.status == GM_PERIODIC_FOUND ? GM_EXIT_OK : GM_EXIT_NUMERICAL;
     if (status == GM_EXIT_OK && (options->save || options->output || options->out)) {

@@ -300,13 +300,15 @@ static void find(struct gm_arena *arena, void *data)
         shorten(&search);
     }
     find_multipliers(&search);
+    /* next to an equilibrium of weak decay the residual is small, but not against the motion */
+    const double least = fmax(1e-10, 1e6 * orbit->residual / orbit->period);
     double fastest = 0;
     gm_field(orbit->problem, orbit->start, search.slope, 1);
     for (size_t c = 0; c < search.n; c++) {
         fastest = fmax(fastest, fabs(search.slope[c]));
     }
     orbit->status = !(orbit->residual <= stalled * scale_of(&search)) ? GM_PERIODIC_NO_CONVERGENCE
-                    : orbit->free && fastest < 1e-10                  ? GM_PERIODIC_EQUILIBRIUM
+                    : orbit->free && fastest < least                  ? GM_PERIODIC_EQUILIBRIUM
                                                                       : GM_PERIODIC_FOUND;
 }
 
