@@ -148,7 +148,7 @@ static double measure_by_tolerance(const struct gm_subject *subject)
 
 double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladder)
 {
-    enum { PER_OCTAVE = 4, COARSER = 2 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
+    enum { PER_OCTAVE = 4, COARSER = 2 * PER_OCTAVE, FITTED = PER_OCTAVE + 1, HALF = FITTED / 2 + 1 };
     const struct gm_scheme *scheme = subject->scheme;
     *ladder = (struct gm_ladder){.count = 0};
     if (scheme->order == 0 || scheme->family->by_tolerance) {
@@ -201,9 +201,13 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
         return NAN;
     }
     const double finest = slope(x + count - FITTED, e + count - FITTED, FITTED);
-    const int earlier = count - FITTED - PER_OCTAVE;
-    /* errors that do not fall at all are settled, too */
-    ladder->settled =
-        earlier >= 0 && fabs(slope(x + earlier, e + earlier, FITTED) - finest) < 0.05 * fmax(finest, 1);
+    const int coarser = count - FITTED - PER_OCTAVE;
+    const double earlier = coarser >= 0 ? slope(x + coarser, e + coarser, FITTED) : NAN;
+    /* An order that still grows with shorter steps may reach that of the scheme. Errors that do not fall at all are
+       settled. */
+    const double coarse = slope(x + count - FITTED, e + count - FITTED, HALF),
+                 fine = slope(x + count - HALF, e + count - HALF, HALF);
+    const bool grows = finest <= 0.95 * scheme->order && 2 * fine - coarse > 0.95 * scheme->order;
+    ladder->settled = fabs(earlier - finest) < 0.05 * fmax(finest, 1) && !grows;
     return finest;
 }
