@@ -63,20 +63,29 @@ static size_t counts_at(const struct gm_problem *problem)
     return problem->events->count;
 }
 
-/* The number of the first break. */
-static size_t first_break(const struct gm_problem *problem)
+/* The number of the first switch. */
+static size_t first_switch(const struct gm_problem *problem)
 {
-    return problem->events->count - problem->events->breaks;
+    return problem->events->written;
 }
 
-static size_t watched(const struct gm_event_step *step)
+/* Returns true if a switch is a break of this run. */
+static bool is_break(const struct gm_event_step *step, size_t event)
 {
-    return step->locates ? step->problem->events->count : first_break(step->problem);
+    const struct gm_events *events = step->problem->events;
+    return step->locates && event >= events->written && event < events->written + events->breaks;
+}
+
+static bool is_watched(const struct gm_event_step *step, size_t event)
+{
+    const struct gm_events *events = step->problem->events;
+    return event < events->written ? step->ends || !events->ends[event]
+                                   : events->inner[event - events->written] || is_break(step, event);
 }
 
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory)
 {
-    return memory + first_break(problem);
+    return memory + first_switch(problem);
 }
 
 static size_t booked_at(const struct gm_problem *problem)
@@ -98,8 +107,8 @@ double gm_events_happened(const struct gm_problem *problem, const double *memory
 {
     const double *counts = memory + counts_at(problem);
     double sum = 0;
-    for (size_t i = 0; i < first_break(problem); i++) {
-        sum += counts[i];
+    for (size_t i = 0; i < first_switch(problem); i++) {
+        sum += problem->events->ends[i] ? 0 : counts[i];
     }
     return event < problem->events->count ? counts[event] : sum;
 }
@@ -129,8 +138,10 @@ static double sign_of(double value)
 /* The sign of dg/dt ahead, of the motion with these modes. */
 static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look)
 {
-    const struct gm_problem *motion = step->motion(step->data, gm_events_modes(step->problem, step->memory));
-    const double sign = motion ? sign_of(step->problem->events->rate(step->problem, motion, event, look)) : 0;
+    const double *modes = gm_events_modes(step->problem, step->memory);
+    const struct gm_problem *motion = step->motion(step->data, modes);
+    const double sign =
+        motion ? sign_of(step->problem->events->rate(step->problem, modes, motion, event, look)) : 0;
     return step->dt < 0 ? -sign : sign;
 }
 
@@ -154,12 +165,6 @@ static double watched_value(const struct gm_event_step *step, size_t event, doub
                                                 : g;
 }
 
-/* The mode on the side where g is. */
-static double mode_at(const struct gm_event_step *step, size_t event, double g)
-{
-    return is_whole(step, event) ? floor(g) : sign_of(g);
-}
-
 /* The mode after g, which is now this, has passed. */
 static double mode_beyond(const struct gm_event_step *step, size_t event, double g)
 {
@@ -177,20 +182,19 @@ static double awaited(const struct gm_event_step *step, size_t event)
 
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
    the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground; a g that
-   jumped there first leaves it. At a break it leads to a side that it does not leave at once. */
+   jumped there first leaves it. At a switch it leads to a side that it does not leave at once. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
     double *memory = &step->memory[event];
     if (is_whole(step, event)) {
-        const double nearest = round(g), at = fabs(g - nearest) <= nothing ? nearest : g;
-        *memory = floor(at);
-        *memory -= *memory == at && sign_of_rate(step, event, look) < 0;
+        *memory = floor(g);
+        *memory -= *memory == g && sign_of_rate(step, event, look) < 0;
     } else if (fabs(g) > nothing) {
         *memory = sign_of(g);
     } else if (form_of(step, event) == GM_AT_JUMP) {
         *memory = 0;
-    } else if (event < first_break(step->problem)) {
+    } else if (event < first_switch(step->problem)) {
         const double ahead = sign_of_rate(step, event, look);
         *memory = ahead != 0 ? ahead : sign_of(*memory) * AT_REST;
     } else {
@@ -208,19 +212,20 @@ static void find_g(const struct gm_event_step *step, const double *look, double 
     step->problem->events->values(step->problem, modes, look, g);
 }
 
-/* Lets breaks wait in a look, whose g depend on the modes of those before them; only those whose g is none of `before`, if
-   that is given. */
+/* Sets the switches in a look, whose g depend on those before them; only those whose g is none of `before`, if that is
+   given. Writes the g of all. */
 static void settle(const struct gm_event_step *step, const double *look, const double *before, double *g)
 {
     /* where g is 0 the modes of all others are needed, and others need its own */
     for (int pass = 0; pass < 3; pass++) {
-        for (size_t i = first_break(step->problem); i < watched(step); i++) {
+        for (size_t i = first_switch(step->problem); i < step->problem->events->count; i++) {
             find_g(step, look, g);
-            if ((g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {
+            if (is_watched(step, i) && (g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {
                 wait_ahead(step, i, look, g[i], 0);
             }
         }
     }
+    find_g(step, look, g);
 }
 
 void gm_events_arm(struct gm_event_step *step)
@@ -229,8 +234,7 @@ void gm_events_arm(struct gm_event_step *step)
     double *look = step->scratch, *g = look + problem->n + 1;
     look_at(problem, step->t, step->begin, look);
     settle(step, look, NULL, g);
-    find_g(step, look, g);
-    for (size_t i = 0; i < first_break(problem) && step->first; i++) {
+    for (size_t i = 0; i < first_switch(problem) && step->first; i++) {
         wait_ahead(step, i, look, g[i], 0);
     }
 }
@@ -242,15 +246,13 @@ static bool crosses(double sign, double value)
 
 bool gm_events_near(const struct gm_event_step *step)
 {
-    const struct gm_events *events = step->problem->events;
     double *look = step->scratch, *g = look + step->problem->n + 1;
     look_at(step->problem, step->end_time, step->end, look);
     find_g(step, look, g);
     bool near = false;
-    for (size_t i = 0; i < watched(step); i++) {
+    for (size_t i = 0; i < step->problem->events->count; i++) {
         const double sign = awaited(step, i);
-        near |= (step->ends || !events->ends[i]) &&
-                (sign == 0 ? g[i] != 0 : crosses(sign, watched_value(step, i, g[i])));
+        near |= is_watched(step, i) && (sign == 0 ? g[i] != 0 : crosses(sign, watched_value(step, i, g[i])));
     }
     return near;
 }
@@ -261,17 +263,20 @@ bool gm_events_near(const struct gm_event_step *step)
 struct rest {
     struct gm_event_step *step;
     double t, rest;
+    double low, place; /* the fractions of `rest` up to which all is passed, and where g passes 0 next */
     size_t event;
-    double *from, *to;                  /* states with all that belongs to them; `to`: room for a trial */
-    double at;                          /* the time of `to` */
-    double *look, *before, *after;      /* looks */
-    double *at_begin, *at_end, *values; /* g of all events, at both ends and anywhere */
-    double *modes;                      /* of breaks before a change */
-    double *sizes;                      /* of the g of all events, at both ends of the step */
-    double *jumps;                      /* 1: g jumps past 0 there, which is not an event */
-    /* The fraction of `rest` where each event happens; NaN: it does not; infinite: it has. */
-    double *places;
+    double *from, *to;                /* states with all that belongs to them; `to`: room for a trial */
+    double at;                        /* the time of `to` */
+    double *look, *before, *after;    /* looks */
+    double *at_low, *at_end, *values; /* g of all events, at both ends and anywhere */
+    double *modes;                    /* of switches before what happens */
+    double *sizes;                    /* of the g of all events, at both ends of the step */
+    double *places;                   /* the fraction of `rest` where each g passes; NaN: it does not */
+    /* The number of the g whose passage lets an event happen here: its own, or that of a switch; `count`: it follows from
+       another event. NaN: it does not happen; negative: it has. */
+    double *causes;
 };
+static const double HAS_HAPPENED = -1;
 
 /* Writes the g of all events. */
 static void find_values(struct rest *rest, double t, const double *y, double *values)
@@ -299,11 +304,7 @@ static bool make_rest(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
     step->parts = true;
-    if (isnan(step->part(step->data, rest->from, rest->t, rest->rest, step->end, true))) {
-        return false;
-    }
-    find_values(rest, step->end_time, step->end, rest->at_end);
-    return true;
+    return !isnan(step->part(step->data, rest->from, rest->t, rest->rest, step->end, true));
 }
 
 /* The watched value of rest->event after a fraction of the rest; NaN if it cannot be made. */
@@ -317,82 +318,75 @@ static double value_after(void *data, double s)
     return watched_value(rest->step, rest->event, rest->values[rest->event]);
 }
 
-/* The fraction of the rest just beyond which an event's g passes 0; 0: at once, within the finder's accuracy; NaN: it
-   cannot be found. */
+/* The fraction of the rest just beyond which an event's g passes 0; rest->low: at once, within the finder's accuracy; NaN:
+   it cannot be found. */
 static double place_of(struct rest *rest, size_t event)
 {
     const double waiting = awaited(rest->step, event), sign = sign_of(waiting), least = 0x1p-51,
-                 at_begin = watched_value(rest->step, event, rest->at_begin[event]),
+                 at_low = watched_value(rest->step, event, rest->at_low[event]),
                  at_end = watched_value(rest->step, event, rest->at_end[event]);
-    double low = 0, at_low = at_begin;
+    double low = rest->low, value = at_low;
     rest->event = event;
     /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
-    for (double s = 0.5; sign_of(at_low) != sign && s > least && !isnan(at_low); s /= 2) {
-        at_low = value_after(rest, low = s);
+    for (double s = (1 - low) / 2; sign_of(value) != sign && s > least && !isnan(value); s /= 2) {
+        value = value_after(rest, low = rest->low + s);
     }
-    if (!isnan(at_low) && sign_of(at_low) != sign) {
-        low = 0;
-        at_low = at_begin;
+    if (!isnan(value) && sign_of(value) != sign) {
+        low = rest->low;
+        value = at_low;
     }
-    const bool at_once = crosses(sign, at_low) || (fabs(waiting) == AT_REST && sign_of(at_low) != sign);
-    return at_once ? 0 : gm_zero_beyond(value_after, rest, low, at_low, at_end);
+    const bool at_once = crosses(sign, value) || (fabs(waiting) == AT_REST && sign_of(value) != sign);
+    return at_once ? rest->low : gm_zero_beyond(value_after, rest, low, value, at_end);
 }
 
-/* Gives breaks without a side the one where the rest has led, and makes the rest on that side. Returns false if it
+/* Gives switches without a side the one where the rest has led, and makes the rest on that side. Returns false if it
    fails. */
 static bool take_sides(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
-    bool taken = false;
-    for (size_t i = first_break(step->problem); i < watched(step); i++) {
+    bool taken = false, made = true;
+    find_values(rest, step->end_time, step->end, rest->at_end);
+    for (size_t i = first_switch(step->problem); i < step->problem->events->count; i++) {
         if (awaited(step, i) == 0 && sign_of(rest->at_end[i]) != 0) {
             step->memory[i] = sign_of(rest->at_end[i]);
+            made = made && (!is_break(step, i) || make_rest(rest));
             taken = true;
         }
     }
-    return !taken || make_rest(rest);
+    if (taken) {
+        find_values(rest, step->end_time, step->end, rest->at_end);
+    }
+    return made;
 }
 
 /* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
 static const double NOTHING = 1e-6;
 
-/* Finds where each g passes 0, and where an event whose conditions hold there happens first. Returns the fraction;
-   infinity: nothing happens, and all wait with the signs at the end; NaN: it cannot be found. */
+/* The part of a step that is too short for a g to leave 0. */
+static const double SHORTEST = 1e-6;
+
+/* Finds where each g passes 0 next. Returns the first of these fractions; infinity: none does; NaN: it cannot be found. */
 static double first_place(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
-    const struct gm_events *events = step->problem->events;
-    double *signs = step->memory, first = INFINITY;
-    const double least = 1e-6;
-    for (size_t i = 0; i < watched(step); i++) {
+    double first = INFINITY;
+    for (size_t i = 0; i < step->problem->events->count; i++) {
         rest->places[i] = NAN;
-        if ((events->ends[i] && !step->ends) ||
-            !crosses(awaited(step, i), watched_value(step, i, rest->at_end[i]))) {
+        if (!is_watched(step, i) || !crosses(awaited(step, i), watched_value(step, i, rest->at_end[i]))) {
             continue;
         }
         const double place = place_of(rest, i);
-        if (place == 0 && rest->t != step->t && fabs(rest->rest) < least * fabs(step->dt)) {
+        if (place == 0 && rest->t != step->t && fabs(rest->rest) < SHORTEST * fabs(step->dt)) {
             continue; /* too short to leave the surface: the next step decides */
         }
-        if (isnan(place) || !make_part(rest, place, false)) {
+        if (isnan(place)) {
             return NAN;
         }
-        find_values(rest, rest->at, rest->to, rest->values);
-        const double g = rest->values[i];
-        if (step->first && rest->t == step->t && place < least && i < first_break(step->problem)) {
-            signs[i] = mode_beyond(step, i, g);
-            continue;
-        }
-        rest->jumps[i] = form_of(step, i) == GM_AT_ZERO && place > 0 && i < first_break(step->problem) &&
-                         (isinf(rest->sizes[i]) || fabs(g) > NOTHING * rest->sizes[i]);
-        const bool happens =
-            place == 0 || (rest->jumps[i] == 0 && events->change(step->problem, i, rest->look, NULL));
         rest->places[i] = place;
-        first = happens ? fmin(first, place) : first;
+        first = fmin(first, place);
     }
-    for (size_t i = 0; i < watched(step) && first > 1; i++) {
-        const bool moves = awaited(step, i) == 0 || !isnan(rest->places[i]);
-        signs[i] = moves ? mode_at(step, i, rest->at_end[i]) : signs[i];
+    for (size_t i = 0; i < first_switch(step->problem) && first > 1; i++) {
+        step->memory[i] = awaited(step, i) == 0 ? sign_of(rest->at_end[i]) : step->memory[i];
     }
     return first;
 }
@@ -414,50 +408,54 @@ static void book(struct rest *rest)
     }
 }
 
-/* The sign with which g moves away from a break at which it is. */
+/* The sign with which g moves away from a switch at which it is. */
 static double away(const struct gm_event_step *step, size_t event, double g)
 {
     return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
 }
 
 /* Lets another event wait in the state after a change. A g that only jumps has now reached 0, or passed it: the event
-   happens at once, unless it has. */
-static void wait_after(struct rest *rest, size_t event, double place, double g)
+   happens at once, unless it has. One that is about to happen still does. */
+static void wait_after(struct rest *rest, size_t event, double g)
 {
     const struct gm_event_step *step = rest->step;
-    const bool happens = form_of(step, event) == GM_AT_JUMP && !isinf(rest->places[event]) &&
-                         (step->ends || !step->problem->events->ends[event]) &&
-                         crosses(awaited(step, event), watched_value(step, event, g));
-    if (happens) {
-        rest->places[event] = place;
-        rest->jumps[event] = 0;
-    } else {
+    double *cause = &rest->causes[event];
+    if (form_of(step, event) == GM_AT_JUMP && isnan(*cause) && is_watched(step, event) &&
+        crosses(awaited(step, event), watched_value(step, event, g))) {
+        *cause = (double)step->problem->events->count;
+    } else if (!(*cause >= 0)) {
         wait_ahead(step, event, rest->after, g, 0);
     }
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion; `changed`: an event there has changed the state.
-   Returns GM_EVENTS_HAPPENED; GM_EVENTS_FAILED if the scheme cannot start from there. */
-static enum gm_event_outcome change(struct rest *rest, double t, size_t event, bool changed)
+/* Places closer than this are one. */
+static const double TOGETHER = 4e-15;
+
+/* Returns true if a g passes 0 in rest->to. */
+static bool passes_here(const struct rest *rest, size_t event)
+{
+    return rest->places[event] <= rest->place + TOGETHER;
+}
+
+/* Lets an event change the state rest->to at t, or a break the motion. Returns GM_EVENTS_HAPPENED; GM_EVENTS_FAILED if the scheme cannot start from there. */
+static enum gm_event_outcome change(struct rest *rest, double t, size_t event)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
     const struct gm_events *events = problem->events;
-    const double roundoff = 1e-12, place = rest->places[event];
-    const bool turns = event >= first_break(problem);
+    const double roundoff = 1e-12;
+    const bool turns = event >= first_switch(problem);
     double *after = rest->values + events->count;
     const double *modes = gm_events_modes(problem, step->memory);
-    struct gm_event_part part = {event, rest->look, rest->before, rest->after, NULL, NULL};
-    memcpy(rest->modes, modes, events->breaks * sizeof *modes);
+    struct gm_event_part part = {
+        event, (size_t)rest->causes[event], rest->modes, rest->look, rest->before, rest->after, NULL, NULL};
+    rest->causes[event] = HAS_HAPPENED;
+    memcpy(rest->modes, modes, (events->count - events->written) * sizeof *modes);
     find_values(rest, t, rest->to, rest->values);
     memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
     if (turns) {
         memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        const double g = rest->values[event];
-        step->memory[event] = mode_beyond(step, event, g);
-        if (changed) { /* to the side where the motion leads */
-            wait_ahead(step, event, rest->before, is_whole(step, event) ? round(g) : 0, 0);
-        }
+        step->memory[event] = mode_beyond(step, event, rest->values[event]);
     } else {
         events->change(problem, event, rest->before, rest->to);
         look_at(problem, t, rest->to, rest->after);
@@ -470,26 +468,30 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event, b
             step->turned_at = t;
             return GM_EVENTS_NO_VALUE;
         }
-        rest->places[event] = INFINITY;
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
         if (!step->restart(step->data, t, rest->to)) {
             return GM_EVENTS_FAILED;
         }
-        find_g(step, rest->after, after);
     }
     step->memory[counts_at(problem) + event]++;
-    for (size_t i = 0; i < first_break(problem) && !turns; i++) {
-        /* a g that jumps is not 0 just beyond */
-        const double size = rest->sizes[i], g = rest->values[i], off = is_whole(step, i) ? g - round(g) : g;
-        if (i == event) {
-            wait_ahead(step, i, rest->after, after[i], fmin(fabs(off), NOTHING * size) + roundoff * size);
-        } else if (after[i] != g) {
-            wait_after(rest, i, place, after[i]);
+    for (size_t i = events->written; i < events->count && !turns; i++) {
+        const double g = rest->values[i];
+        if (passes_here(rest, i) && sign_of_rate(step, i, rest->after) == -away(step, i, g)) {
+            wait_ahead(step, i, rest->after, is_whole(step, i) ? round(g) : 0, 0); /* turned back */
         }
     }
     settle(step, rest->after, rest->values, after);
-    for (size_t i = first_break(problem); i < watched(step); i++) { /* g that jumped are not passed here */
-        rest->places[i] = i != event && after[i] != rest->values[i] ? NAN : rest->places[i];
+    for (size_t i = 0; i < events->written && !turns; i++) {
+        /* a g that jumps is not 0 just beyond */
+        const double size = rest->sizes[i], g = rest->values[i];
+        if (i == event) {
+            wait_ahead(step, i, rest->after, after[i], fmin(fabs(g), NOTHING * size) + roundoff * size);
+        } else if (after[i] != g) {
+            wait_after(rest, i, after[i]);
+        }
+    }
+    for (size_t i = events->written; i < events->count; i++) { /* g that jumped are not passed here */
+        rest->places[i] = after[i] != rest->values[i] ? NAN : rest->places[i];
     }
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
@@ -524,62 +526,133 @@ static void note(struct gm_event_step *step, size_t event, double g)
     step->turned_at = is_whole(step, event) ? round(g) : 0;
 }
 
-/* Makes the rest up to the first events, and their changes; *place: its fraction. */
-static enum gm_event_outcome pass_first(struct rest *rest, double place)
+/* Lets an event wait beyond g, which is now this, without happening. */
+static void pass_by(const struct rest *rest, size_t event, double g)
+{
+    const double nothing = NOTHING * rest->sizes[event];
+    if (rest->causes[event] == (double)event && fabs(g) <= nothing) {
+        rest->step->memory[event] = mode_beyond(rest->step, event, g);
+    } else {
+        wait_ahead(rest->step, event, rest->look, g, nothing);
+    }
+}
+
+/* Turns the switches that pass in rest->to, and finds the causes of what happens there: breaks; events whose g passes 0,
+   or jumps to 0, or from 0 before it has passed, or past 0 if it only jumps. Other events pass by. Returns false if nothing
+   happens; else breaks are not turned yet. */
+static bool find_causes(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
-    const double together = 4e-15, begin = rest->t;
-    bool many = false;
+    double *after = rest->values + events->count;
+    const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST;
+    size_t turned = SIZE_MAX;
+    bool some = false;
+    find_values(rest, rest->at, rest->to, rest->values);
+    memcpy(rest->modes, step->memory + events->written, (events->count - events->written) * sizeof *after);
+    for (size_t i = events->written; i < events->count; i++) {
+        const bool passes = passes_here(rest, i), breaks = passes && is_break(step, i);
+        rest->causes[i] = breaks ? (double)i : NAN;
+        step->memory[i] = passes ? mode_beyond(step, i, rest->values[i]) : step->memory[i];
+        turned = passes ? i : turned;
+        some |= breaks;
+    }
+    settle(step, rest->look, rest->values, after);
+    for (size_t i = 0; i < events->written; i++) {
+        const double g = rest->values[i], size = rest->sizes[i], nothing = NOTHING * fabs(after[i] - g);
+        const bool only = form_of(step, i) == GM_AT_JUMP, passes = passes_here(rest, i),
+                   jumps = after[i] != g,
+                   pole = !only && rest->place > 0 && (isinf(size) || fabs(g) > NOTHING * size),
+                   leaps = jumps && (only ? crosses(awaited(step, i), watched_value(step, i, after[i]))
+                                          : fabs(after[i]) <= nothing ||
+                                                (fabs(g) <= nothing &&
+                                                 sign_of_rate(step, i, rest->look) * awaited(step, i) < 0)),
+                   happens = is_watched(step, i) && !begins && ((passes && !pole) || leaps);
+        rest->causes[i] = passes ? (double)i : happens ? (double)turned : NAN;
+        some |= happens && events->change(step->problem, i, rest->look, NULL);
+        if (!happens && (passes || jumps)) {
+            pass_by(rest, i, after[i]);
+            rest->causes[i] = NAN;
+        }
+    }
+    for (size_t i = 0; i < events->written && !some; i++) {
+        if (!isnan(rest->causes[i])) {
+            pass_by(rest, i, after[i]);
+        }
+    }
+    for (size_t i = events->written; i < events->count && some; i++) {
+        step->memory[i] = is_break(step, i) ? rest->modes[i - events->written] : step->memory[i];
+    }
+    return some;
+}
+
+/* Passes what is at rest->place: makes the rest up to it, and the changes there. GM_EVENTS_NONE: nothing happens. */
+static enum gm_event_outcome pass_first(struct rest *rest)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_events *events = step->problem->events;
+    const double begin = rest->t;
     size_t made = 0;
-    if (!make_part(rest, place, true)) {
+    bool many = false;
+    if (!make_part(rest, rest->place, false)) {
         return GM_EVENTS_FAILED;
     }
     const double t = step->reached = rest->at;
-    for (size_t i = watched(step);
-         i-- > 0 && place == 0;) { /* back on g = 0 within the accuracy of the finder */
-        if (rest->places[i] == 0) {
-            note(step, i, rest->at_begin[i]);
-            return i < first_break(step->problem) ? GM_EVENTS_MANY : GM_EVENTS_SLIDE;
+    for (size_t i = events->count; i-- > 0 && rest->place == 0 && !(step->first && begin == step->t);) {
+        if (rest->places[i] == 0 && (i < events->written || is_break(step, i))) {
+            note(step, i < events->written ? SIZE_MAX : i, rest->at_low[i]);
+            return i < events->written ? GM_EVENTS_MANY : GM_EVENTS_SLIDE; /* back on g = 0 */
         }
     }
-    for (size_t i = 0; i < watched(step); i++) {
-        if (!(rest->places[i] <= place + together)) {
+    if (!find_causes(rest)) {
+        rest->low = rest->place;
+        find_values(rest, t, rest->to, rest->at_low);
+        note(step, 0, 0);
+        return GM_EVENTS_NONE;
+    }
+    if (!make_part(rest, rest->place, true)) {
+        return GM_EVENTS_FAILED;
+    }
+    for (size_t k = 0; k < events->count; k++) { /* breaks first */
+        const size_t i = (events->written + k) % events->count;
+        if (!(rest->causes[i] >= 0)) {
             continue;
         }
-        look_at(step->problem, t, rest->to, rest->look);
-        if (rest->places[i] < place - together || rest->jumps[i] != 0 ||
-            !events->change(step->problem, i, rest->look, NULL)) {
-            find_g(step, rest->look, rest->values); /* passed without its conditions, or by a jump */
-            step->memory[i] =
-                rest->places[i] <= place ? mode_beyond(step, i, rest->values[i]) : step->memory[i];
-            rest->places[i] = INFINITY;
+        find_values(rest, t, rest->to, rest->values);
+        if (i < events->written && !events->change(step->problem, i, rest->look, NULL)) {
+            pass_by(rest, i, rest->values[i]);
+            rest->causes[i] = HAS_HAPPENED;
             continue;
         }
-        if (events->ends[i]) {
+        if (i < events->written && events->ends[i]) {
             step->memory[counts_at(step->problem) + i]++;
             return GM_EVENTS_ENDED;
         }
-        if (i < first_break(step->problem) && made++ == 0) {
+        if (i < events->written && made++ == 0) {
             many = are_too_short(step, t);
         }
-        const enum gm_event_outcome outcome = change(rest, t, i, made > 0);
+        note(step, i, rest->values[i]);
+        const enum gm_event_outcome outcome = change(rest, t, i);
         if (outcome != GM_EVENTS_HAPPENED) {
             return outcome;
         }
-        note(step, i, rest->values[i]);
-        memcpy(rest->from, rest->to, step->size * sizeof *rest->to);
+        memcpy(rest->from, rest->to, step->size * sizeof *rest->from);
         rest->t = t;
-        i = i < first_break(step->problem) ? SIZE_MAX : i; /* its change may call any other */
+        k = i < events->written ? events->count - events->written - 1
+                                : k; /* its change may call any other event */
     }
-    find_values(rest, t, rest->to, rest->values);
-    for (size_t i = first_break(step->problem); i < watched(step); i++) {
-        const double sign = away(step, i, rest->values[i]);
-        if (rest->places[i] <= place + together && sign_of_rate(step, i, rest->look) == -sign) {
-            step->reached = place <= together ? begin : t;
-            note(step, i, rest->values[i]);
+    rest->low = 0;
+    find_values(rest, t, rest->from, rest->at_low);
+    for (size_t i = events->written; i < events->count; i++) {
+        const double sign = away(step, i, rest->at_low[i]);
+        if (is_break(step, i) && passes_here(rest, i) && sign_of_rate(step, i, rest->look) == -sign) {
+            step->reached = rest->place <= TOGETHER ? begin : t;
+            note(step, i, rest->at_low[i]);
             return GM_EVENTS_SLIDE;
         }
+    }
+    if (many) {
+        note(step, SIZE_MAX, 0);
     }
     return many ? GM_EVENTS_MANY : GM_EVENTS_HAPPENED;
 }
@@ -610,44 +683,47 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
                         .look = next,
                         .before = next + width,
                         .after = next + 2 * width,
-                        .at_begin = next + 3 * width,
+                        .at_low = next + 3 * width,
                         .at_end = next + 3 * width + count,
                         .places = next + 3 * width + 2 * count,
                         .modes = next + 3 * width + 3 * count,
                         .sizes = next + 3 * width + 4 * count,
-                        .jumps = next + 3 * width + 5 * count,
+                        .causes = next + 3 * width + 5 * count,
                         .values = next + 3 * width + 6 * count};
-    enum gm_event_outcome outcome = GM_EVENTS_NONE;
     if (!gm_events_near(step)) {
         return GM_EVENTS_NONE;
     }
     find_values(&rest, step->end_time, step->end, rest.at_end);
-    find_values(&rest, step->t, step->begin, rest.at_begin);
+    find_values(&rest, step->t, step->begin, rest.at_low);
     for (size_t i = 0; i < count; i++) {
-        rest.sizes[i] = fabs(rest.at_begin[i]) + fabs(rest.at_end[i]);
+        rest.sizes[i] = fabs(rest.at_low[i]) + fabs(rest.at_end[i]);
     }
     memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
+    bool some = false;
     for (int made = 0; made <= MOST_IN_A_STEP; made++) {
-        const double place = take_sides(&rest) ? first_place(&rest) : NAN;
-        if (place > 1) {
-            return outcome;
+        rest.place = take_sides(&rest) ? first_place(&rest) : NAN;
+        if (rest.place > 1) {
+            return some ? GM_EVENTS_HAPPENED : GM_EVENTS_NONE;
         }
-        outcome = isnan(place) ? GM_EVENTS_FAILED : pass_first(&rest, place);
-        outcome = outcome == GM_EVENTS_HAPPENED && made == MOST_IN_A_STEP ? GM_EVENTS_MANY : outcome;
+        enum gm_event_outcome outcome = isnan(rest.place) ? GM_EVENTS_FAILED : pass_first(&rest);
+        const bool last = made == MOST_IN_A_STEP && outcome <= GM_EVENTS_HAPPENED;
+        outcome = last ? GM_EVENTS_MANY : outcome;
         if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
             return outcome;
         }
         const bool ends =
-            place == 1 || (step->end_time - rest.t) * step->dt <= 0; /* or beyond, by round-off */
-        if (outcome != GM_EVENTS_HAPPENED || ends || step->varies) {
+            rest.place == 1 || (step->end_time - rest.t) * step->dt <= 0; /* or beyond, by round-off */
+        if (outcome > GM_EVENTS_HAPPENED || (outcome == GM_EVENTS_HAPPENED && (ends || step->varies))) {
             memcpy(step->end, rest.to, step->size * sizeof *rest.to);
             return outcome;
         }
-        rest.rest = step->end_time - rest.t;
-        if (!make_rest(&rest)) {
-            return GM_EVENTS_FAILED;
+        if (outcome == GM_EVENTS_HAPPENED) {
+            some = true;
+            rest.rest = step->end_time - rest.t;
+            if (!make_rest(&rest)) {
+                return GM_EVENTS_FAILED;
+            }
         }
-        find_values(&rest, rest.t, rest.from, rest.at_begin);
     }
-    return outcome;
+    return GM_EVENTS_FAILED;
 }

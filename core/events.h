@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Events: changes of a motion where a function g of its state and the time passes 0. A stop is the change that
-   ends the run; at a break the rates change, from one smooth formula to another. */
+   ends the run; at a break the rates change, from one smooth formula to another. The g of an event is smooth, too, between
+   the switches in it: where one passes, g may jump. */
 #ifndef GM_CORE_EVENTS_H
 #define GM_CORE_EVENTS_H
 
@@ -11,33 +12,35 @@
 
 struct gm_event_part;
 
-/* The places where an event happens: at a 0 of g, which g passes, or to which it jumps; at each whole number of g; or, of a
-   g that changes only by jumps, at the jump to 0 or past it. */
+/* The places where an event happens: at a 0 of g, which g passes, or to which it jumps; of a switch, also at each whole
+   number of g; or, of a g that changes only by jumps, at the jump to 0 or past it. */
 enum gm_event_form { GM_AT_ZERO, GM_AT_WHOLE, GM_AT_JUMP };
 
 /* The events of a problem, for one member. `look` is a state with its time: n components, then t. */
 struct gm_events {
-    size_t count, breaks;            /* the last of `count` are breaks, in runs that locate them */
+    /* First the written ones, then switches; the first switches are breaks, in runs that locate them. */
+    size_t count, written, breaks;
     const char *const *names;        /* [count]; "": none */
-    const char *const *surfaces;     /* [breaks], the text of g */
-    const enum gm_event_form *forms; /* [count]; of breaks no jump */
+    const char *const *surfaces;     /* [count - written], the text of a switch's g */
+    const bool *inner;               /* [count - written]: the g of an event holds the switch */
+    const enum gm_event_form *forms; /* [count]; of switches no jump */
     const bool *ends;                /* [count]: the event ends the run, and changes no state */
     bool changes, ends_runs;         /* some event changes the state; some ends the run */
-    /* Writes g of all events, with breaks in these modes. NaN when out of memory. */
+    /* Writes g of all, with switches in these modes. NaN when out of memory. */
     void (*values)(const struct gm_problem *problem, const double *modes, const double *look, double *values);
     /* Returns true if the conditions of an event hold. Writes the n components after it, unless y is NULL. */
     bool (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
     /* Returns dg/dt along a motion, of the problem or with frozen switches. */
-    double (*rate)(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
-                   const double *look);
+    double (*rate)(const struct gm_problem *problem, const double *modes, const struct gm_problem *motion,
+                   size_t event, const double *look);
     /* v := S v, n numbers, for a small error v of the state before the event,
            S = DR + (f+ - DR f- - dR/dt) grad g' / (grad g . f- + dg/dt)
-       with the change y+ = R(y-, t) and the fields f- and f+ before and after it. Returns false where the motion
-       only touches g = 0. M. A. Aizerman & F. R. Gantmacher, Quart. J. Mech. Appl. Math. 11 (1958) 225. */
+       with the change y+ = R(y-, t), the fields f- and f+ before and after it, and the g whose passage lets it happen.
+       Returns false where the motion only touches g = 0, or there is no such g. M. A. Aizerman & F. R. Gantmacher, Quart. J. Mech. Appl. Math. 11 (1958) 225. */
     bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
     /* The same for all tangents that the state y after an event holds. */
     void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
-    /* Returns the problem whose breaks are frozen in these modes. It and the one that was returned before stay valid
+    /* Returns the problem whose breaks are frozen in the first of these modes. It and the one that was returned before stay valid
        until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);
@@ -51,7 +54,9 @@ struct gm_events {
 
 /* A part of a step that ends with an event. */
 struct gm_event_part {
-    size_t event;
+    size_t event,
+        cause; /* the number of the g that passes, of the event or a switch in its g; count: another event calls it */
+    const double *modes;                     /* before it */
     const double *begin, *before, *after;    /* looks: where the part begins, before and after the change */
     const struct gm_problem *ahead, *beyond; /* the motions before and after it */
 };
@@ -65,7 +70,7 @@ struct gm_event_witness {
    known, or none before g leaves 0), or the whole number below g; how often each event happened; the jumps of the
    quantities; the time of the last event, and the number of successive intervals that were too short. */
 size_t gm_events_memory(const struct gm_problem *problem);
-/* The number of times that an event or break happened; for number `count`, all events but breaks. */
+/* The number of times that an event or break happened; for number `count`, all events that change the state. */
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event);
 /* The sum of the jumps of a quantity. */
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity);
@@ -93,7 +98,7 @@ struct gm_event_step {
     struct gm_event_witness witness;
     bool parts;       /* some were made */
     double reached;   /* the time of the end */
-    size_t turned;    /* the event or break at which it ends; SIZE_MAX: none */
+    size_t turned;    /* the event or switch at which it ends; SIZE_MAX: none */
     double turned_at; /* the value of g there; the time of an event without a value */
 };
 enum gm_event_outcome {
@@ -107,15 +112,15 @@ enum gm_event_outcome {
 };
 
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
-/* Begins the waiting of breaks, and if step->first of all events, in the state `begin` at t, of the last member; counts and
+/* Begins the waiting of switches, and if step->first of all events, in the state `begin` at t, of the last member; counts and
    jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
 /* Returns true if some event, at the end of a step, has not the sign that it waits with, or waits with none. */
 bool gm_events_near(const struct gm_event_step *step);
-/* The modes of breaks. */
+/* The modes of switches. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events, or breaks, accumulate there; GM_EVENTS_NO_VALUE: an event changes
+   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there, or if `turned` is given a step has too many; GM_EVENTS_NO_VALUE: an event changes
    the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 

@@ -76,10 +76,17 @@ const double *gm_run_events(const struct gm_run *run)
     return run->problem->events ? events_of(run, run->current) : NULL;
 }
 
+/* Returns true if breaks are located for a scheme: its steps can be made in parts. A symplectic scheme of order 1 steps
+   across them: that keeps its order, and parts would change its energy in the same direction at each break. */
+static bool locates(const struct gm_scheme *scheme)
+{
+    return gm_scheme_has_one_step(scheme) && !(scheme->order == 1 && (scheme->claims & GM_SYMPLECTIC));
+}
+
 bool gm_run_locates(const struct gm_run *run)
 {
     return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
-           gm_scheme_has_one_step(run->scheme);
+           locates(run->scheme);
 }
 
 /* Opens the workspace for the present motion. */
@@ -236,7 +243,8 @@ static struct gm_event_step event_step(struct gm_run *run)
                                   .restart = restart,
                                   .motion = take_motion,
                                   .data = run,
-                                  .witness = run->witness};
+                                  .witness = run->witness,
+                                  .turned = SIZE_MAX};
 }
 
 /* Lets breaks wait in the current state; `first`: all events. */
@@ -776,7 +784,7 @@ static bool is_possible(const struct gm_run *run, const struct gm_run *then)
            (then->stopped & ~1) == 0 &&
            (then->status != GM_SLIDING ||
             (run->problem->events && then->turned < run->problem->events->count &&
-             then->turned >= run->problem->events->count - run->problem->events->breaks)) &&
+             then->turned >= run->problem->events->written)) &&
            (run->scheme->family->adaptive || then->t == then->t0 + (double)then->n * then->dt);
 }
 

@@ -304,9 +304,8 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     };
     const struct gm_run *run = lane->run;
     const struct gm_events *events = run->problem->events;
-    const size_t first = events ? events->count - events->breaks : 0;
     const bool solved = run->status != GM_BLOW_UP && run->status != GM_NO_CONVERGENCE,
-               breaks = events && run->turned >= first && run->turned < events->count;
+               breaks = events && run->turned >= events->written && run->turned < events->count;
     text[0] = '\0';
     const bool tangled = run->status == GM_MESH_CROSSING, ended = run->status == GM_OK && run->stopped;
     if ((!solved || tangled || ended || run->status == GM_STEP_COLLAPSE) &&
@@ -325,7 +324,11 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
             run->status == GM_SLIDING
                 ? "the motion slides along %.120s = %g from t = %.10g: both rates point at it"
                 : "a step passes more than 1000 breaks, up to %.120s = %g at t = %.10g: take a shorter dt";
-        snprintf(text, size, sentence, events->surfaces[run->turned - first], run->turned_at, run->t);
+        snprintf(text, size, sentence, events->surfaces[run->turned - events->written], run->turned_at,
+                 run->t);
+    } else if (run->status == GM_EVENTS_ACCUMULATE && run->turned != SIZE_MAX) {
+        snprintf(text, size,
+                 "a step passes its events more than 1000 times, up to t = %.10g: take a shorter dt", run->t);
     } else if (run->status != GM_OK) {
         snprintf(text, size, sentences[run->status], run->t, run->limit);
     }

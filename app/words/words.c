@@ -14,6 +14,7 @@
 #include "core/basics.h"
 #include "core/expression/nearest.h"
 #include "core/functions/functions.h"
+#include "core/model/scope.h"
 #include "core/parameter.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -363,6 +364,16 @@ static struct gm_word *new_list(struct gm_words *words, const char *key)
     return &words->list[words->count++];
 }
 
+/* Returns true for the word of lines of a system's file of which there may be many. */
+static bool is_line(const char *key)
+{
+    size_t i = 0;
+    while (i < GM_WORDS && strcmp(gm_system_words[i].word, key) != 0) {
+        i++;
+    }
+    return i < GM_WORDS && gm_system_words[i].identity != GM_LINE_ONCE;
+}
+
 /* `next`: the word after it, or NULL. */
 static void read_word(struct gm_words *words, const struct gm_scene *scene, const char *word,
                       const char *next)
@@ -377,6 +388,8 @@ static void read_word(struct gm_words *words, const struct gm_scene *scene, cons
     gm_arena_refuse_if(arena, has_orders(word), "\"%.60s\" holds a character that cannot be shown", word);
     struct gm_word *list = new_list(words, gm_arena_print(arena, "%.*s", (int)(equals - word), word));
     if (!known_key(scene, list->key)) {
+        gm_arena_refuse_if(arena, is_line(list->key), "%.40s: is a line of a system's file, not a key",
+                           list->key);
         const char *near = key_meant(scene, list->key);
         char typed[256];
         gm_arguments_tell_scene(scene, typed, sizeof typed);

@@ -77,7 +77,7 @@ static gm_node_id mode_of(struct gm_freezing *freezing, gm_node_id surface, bool
         i++;
     }
     if (i == freezing->count) {
-        freezing->full |= !freezing->closed && i == GM_MOST_BREAKS;
+        freezing->full |= !freezing->closed && i == freezing->most;
         if (freezing->closed || freezing->full) {
             return GM_NO_NODE;
         }

@@ -25,8 +25,8 @@ const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_syst
 /* Nodes in which switches are frozen, with the switches that were found. */
 struct gm_freezing {
     struct gm_user_system *system;
-    struct gm_break *list; /* [GM_MOST_BREAKS] */
-    size_t count;
+    struct gm_break *list; /* [most] */
+    size_t count, most;
     bool closed;         /* no further switch is frozen */
     bool full;           /* there are more */
     const bool *varying; /* of gm_formula_dependent, over the components, the time and velocities */

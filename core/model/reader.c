@@ -332,12 +332,12 @@ static gm_node_id difference(struct gm_formula *graph, gm_node_id left, gm_node_
                                            : gm_formula_apply(graph, GM_OPERATION_SUBTRACT, left, right);
 }
 
-/* Adds g - h of g = h, where an event happens. */
-static void add_surface(struct gm_reading *reading, struct gm_system_item *item, struct gm_span surface)
+/* Adds g - h of g = h, where an event happens or a section is. */
+static void add_surface(struct gm_reading *reading, struct gm_system_item *item, struct gm_span surface,
+                        const char *sentence)
 {
     const size_t equals = gm_span_until(reading->text, surface, "=");
-    gm_system_refuse_if(reading->system, equals == surface.end, surface.begin,
-                        "an event needs an =: event: q = 0; p = -p");
+    gm_system_refuse_if(reading->system, equals == surface.end, surface.begin, "%s", sentence);
     const gm_node_id left = gm_reading_formula(reading, gm_reading_between(reading, surface.begin, equals)),
                      right =
                          gm_reading_formula(reading, gm_reading_between(reading, equals + 1, surface.end));
@@ -407,7 +407,9 @@ static void read_event(struct gm_reading *reading, const struct gm_read_line *li
     gm_system_refuse_if(system, item->name[0] && event_named(system, item->name) != item, name.begin,
                         "the event %.60s is given twice", item->name);
     gm_span_take(text, &piece, ",", &surface);
-    add_surface(reading, item, surface);
+    add_surface(
+        reading, item, surface,
+        "an event needs an =, where it happens: event: q = 0; p = -p, or with a name event: hit; q = 0; p = -p");
     rest = gm_span_trimmed(text, rest);
     gm_system_refuse_if(system, rest.begin == rest.end, surface.end,
                         "what happens is missing: event: q = 0; p = -p, or event: q = 0; stop");
@@ -450,18 +452,14 @@ static void read_section(struct gm_reading *reading, const struct gm_read_line *
     if (item->at_event) {
         condition.begin += 3;
         item->name = gm_reading_text(reading, gm_span_trimmed(text, condition));
-    } else if (!item->periodic) {
-        const size_t equals = gm_span_until(text, condition, "=");
-        gm_system_refuse_if(
-            reading->system,
-            equals == condition.end ||
-                !gm_span_is(text, gm_reading_between(reading, equals + 1, condition.end), "0"),
-            condition.begin, "a section is where something is 0, x = 0, or every T, or at EVENT");
-        condition.end = equals;
     }
-    gm_item_add(reading, item,
-                item->at_event ? gm_formula_constant(&reading->system->graph, 0)
-                               : gm_reading_formula(reading, condition));
+    if (item->periodic || item->at_event) {
+        gm_item_add(reading, item,
+                    item->at_event ? gm_formula_constant(&reading->system->graph, 0)
+                                   : gm_reading_formula(reading, condition));
+    } else {
+        add_surface(reading, item, condition, "a section is where g = h, as x = 0, or every T, or at EVENT");
+    }
     const double period = item->periodic ? gm_reading_number(reading, condition) : 1;
     gm_system_refuse_if(reading->system, !(period > 0), condition.begin,
                         "the time between two looks is %g, and has to be above 0", period);

@@ -883,6 +883,7 @@ done
 printf '%s\n' 4,4,4,4:'mod(t, 1) = 0' 4,4,4,4:'mod(t, 1) - 1/2 = 0' 5,5,5,5:'mod(x, 1) = h' 1,1,1,1:'floor(t) = 3' \
     1,1,1,1:'3 = floor(x)' 1,1,1,1:'floor(t) = 5/2' 1,1,1,1:'ceil(t) = 3' 1,1,1,1:'sign(x - 2) = 0' \
     1,1,1,1:'if(t > 2, 1, -1) = 0' 1,1,1,1:'if(t > 2, x - 2, -1) = 0' 1,1,1,1:'if(x > 1.95, x - 4, 3 - x) = 0' \
+    4,4,4,4:'mod(x, 1)*2 = 1' 4,4,4,4:'x - floor(x) = 0.3' 4,4,4,4:'mod(x, 1)^2 = 1/4' 9,9,9,9:'abs(mod(x, 1) - 1/2) = 0.3' \
     1,1,1,1:'tan(t) = 0' 0,0,0,0:'1/(t - 2) = 0' 0,0,0,0:'abs(x) = 0' 0,0,0,0:'if(x > 1, -x, x) = 0' >jumps
 while IFS=: read -r counts event; do
     found=
@@ -893,6 +894,33 @@ while IFS=: read -r counts event; do
     done
     [ "$found" = ",$counts" ] || fail "$event happens $found times"
 done <jumps
+# two events at one place are two, wherever the ends of steps are, in both directions
+printf '%s\n' 0:1:'x = 4':'ceil(x) = 5':1:1 0:1:'mod(x, 2) = 0':'floor(x) = 4':2:1 0:1:'mod(x, 0.1) = 0.05':'floor(x/2) = 1':55:1 \
+    5.5:-1:'x = 4':'floor(x) = 3':1:1 5.5:-1:'mod(x, 2) = 0':'floor(x) = 3':2:1 5.5:-1:'mod(x, 0.1) = 0.05':'ceil(x) = 3':55:1 >pairs
+while IFS=: read -r start rate one other ones others; do
+    printf 'rate: x = %s, n = 0, m = 0\nstart: x = %s, n = 0, m = 0\nevent: a; %s; n = n + 1\nevent: b; %s; m = m + 1\n' \
+        "$rate" "$start" "$one" "$other" >pair.system
+    for dt in 0.03 0.1 0.25 0.7 1 2.75; do
+        "$geomint" run pair.system dt=$dt until=5.49 scheme=rk4 --json >out || fail "$one and $other, dt=$dt: $(cat out)"
+        grep -q "\"events_a\":$ones,\"events_b\":$others[,}]" out || fail "$one and $other, dt=$dt: $(cat out)"
+    done
+done <pairs
+# the tangents of an event whose g only jumps are those of the jump's surface, x = 3
+printf 'rate: x = 1 + y/10, y = -y/5\nstart: x = 0.2, y = 1\nevent: floor(x) = 3; y = y + x^2\nuntil: 4\ndt: 0.1\n' >surface.system
+"$geomint" run surface.system scheme=gauss8 --measure log_volume --json >out || fail 'tangents at a jump'
+python3 -c '
+import json, math
+low, high = 0, 4
+while high - low > 1e-15:
+    t = (low + high)/2
+    low, high = (t, high) if 0.2 + t + (1 - math.exp(-t/5))/2 < 3 else (low, t)
+y = math.exp(-low/5)
+first, second = (1 + y/10, -y/5), (1 + (y + 9)/10, -(y + 9)/5)
+late = [second[0] - first[0], second[1] - (6*first[0] + first[1])]
+S = [[1 + late[0]/first[0], 0], [6 + late[1]/first[0], 1]]
+found = json.load(open("out"))["observables"]["log_volume"]
+assert abs(found - (-4/5 + math.log(S[0][0]*S[1][1]))) < 1e-11, (found, S)
+' || fail "tangents at a jump: $(cat out)"
 printf 'rate: x = -1, n = 0\nstart: x = 4.25, n = 0\nevent: floor(x) = 3; n = t\ndt: 0.1\nuntil: 4\n' >downwards.system
 "$geomint" run downwards.system scheme=rk4 --json --state >out || fail 'floor, downwards'
 python3 -c 'import json; end = json.load(open("out")); assert abs(end["state"][1] - 0.25) < 1e-14 and end["observables"]["events"] == 1, end' ||
@@ -941,7 +969,7 @@ wrong() {
     refused 1 "$2" run ./wrong.system ${3:-}
 }
 wrong 'event: y = 0; r = 1' 'r is a parameter.*rate: r = 0'
-wrong 'event: y; v = -v' 'an event needs an ='
+wrong 'event: y; v = -v' 'an event needs an =.*with a name event: hit'
 wrong 'event: y = 0' 'what happens'
 wrong 'event: 3 = r; v = 1' 'never changes'
 wrong 'event: y = 0, v; v = -v' 'a condition compares'
@@ -1043,6 +1071,12 @@ done
 # the rates of Robertson's reactions: that of the slowest component, and of the fastest decay (Gear, 1971)
 printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2\nstart: a = 1, b = 0, c = 0\nuntil: 40\n' >robertson.system
 "$geomint" list robertson.system --long | grep -q 'stiff *yes rates 0.038 to 2.2e+03' || fail 'the rates of a stiff system'
+# a symplectic scheme of order 1 steps across: parts would take its energy, h^2 g^2/2 a step
+"$geomint" run corner.system scheme=symplectic-euler --json >out || fail "symplectic steps across breaks: $(cat out)"
+python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] < 0.1' || fail "symplectic steps across breaks: $(cat out)"
+"$geomint" run springs.system scheme=symplectic-euler --json >out || fail "symplectic steps across breaks: $(cat out)"
+grep -q '"breaks":"ignored"' out || fail "symplectic steps across breaks: $(cat out)"
+refused 1 'event: is a line of a system' run ./corner.system 'event=q = 1; p = 0'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
 status 0 run system 'rate=x = 1, z = if(x > 0 and not x > 1 or x > 5, 2, 0)' x=-1 z=0 dt=0.1 until=3 scheme=rk4
 "$geomint" list system 'rate=z = floor(t)' z=0 --long | grep -q 'breaks are located' || fail 'breaks of floor'

@@ -128,7 +128,7 @@ static size_t structure_of(const struct work *work)
 {
     const struct gm_scene *scene = work->lane->scene;
     size_t count = work->orbit.free;
-    const struct gm_events *events = work->lane->problem.events; /* whose changes may keep no invariant */
+    const struct gm_events *events = work->lane->problem.events; /* they may change the energy */
     for (size_t i = 0; i < scene->observable_count && work->orbit.free && !(events && events->changes); i++) {
         count += scene->observables[i].error && scene->observables[i].kept;
     }

@@ -515,7 +515,7 @@ static bool has_passed(const struct gm_run *run)
     const struct gm_events *events = run->problem->events;
     const double *memory = gm_run_events(run);
     bool passed = events->breaks > 0 || gm_events_happened(run->problem, memory, events->count) > 0;
-    for (size_t i = events->count - events->breaks; i < events->count; i++) {
+    for (size_t i = events->written; i < events->written + events->breaks; i++) {
         passed &= gm_events_happened(run->problem, memory, i) >= 2;
     }
     return passed;

@@ -251,7 +251,7 @@ const char *gm_growth_to(struct gm_growth *growth, int64_t steps)
     }
     return !growth->failed ? NULL
            : gm_tangent_grazes(growth->tangent)
-               ? "the motion only touches the surface of an event there: no tangent"
+               ? "an event there has no tangent: the motion only touches its surface, or another event calls it"
                : "a step beside the orbit fails";
 }
 

@@ -45,7 +45,7 @@ struct gm_tangent {
     size_t count;
     double t;       /* where its next part begins; `before` is the state there */
     size_t events;  /* events of the step so far */
-    bool grazes;    /* the motion only touches the surface of an event */
+    bool grazes;    /* an event has no tangent (gm_events.carry) */
     bool broken;    /* a part has no derivative */
     bool together;  /* the stages have reproduced the scheme to the last bit so far */
     void *snapshot; /* the run's state before these steps, restored if not */

@@ -26,9 +26,8 @@ enum gm_user_formula {
     GM_USER_ACTION_SLOPES,
     GM_USER_CONSTRAINTS,
     GM_USER_ONE_FORM,
-    GM_USER_SURFACES, /* of components and the time: where events happen, and what is conserved between them */
-    GM_USER_BOOKED,
-    GM_USER_BREAKS, /* g of each break */
+    GM_USER_SURFACES, /* of components, the time and switches: g of all events and switches */
+    GM_USER_BOOKED,   /* what is conserved between events */
     GM_USER_FORMULAS
 };
 

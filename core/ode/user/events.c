@@ -34,21 +34,19 @@ static void frozen_values(const struct gm_problem *problem, struct gm_late_tape 
    components and the time. */
 static void values(const struct gm_problem *problem, const double *modes, const double *look, double *g)
 {
-    struct gm_user_data *self = gm_user_data_of(problem);
-    const size_t count = self->model->event_count;
-    if (count > 0) {
+    if (gm_user_data_of(problem)->model->frozen) {
+        frozen_values(problem, &gm_user_data_of(problem)->tapes[GM_USER_SURFACES], modes, look, g);
+    } else {
         gm_user_values(problem, GM_USER_SURFACES, look, g, 1);
-    }
-    if (self->events.breaks > 0) {
-        frozen_values(problem, &self->tapes[GM_USER_BREAKS], modes, look, g + count);
     }
 }
 
 static const struct gm_user_event *event_of(const struct gm_problem *problem, size_t event)
 {
     const struct gm_user_model *model = gm_user_data_of(problem)->model;
-    return event < model->event_count ? &model->events[event]
-                                      : &model->frozen->events[event - model->event_count];
+    return event >= model->event_count ? &model->frozen->events[event - model->event_count]
+           : model->frozen             ? &model->frozen->model.events[event]
+                                       : &model->events[event];
 }
 
 /* gm_events.change */
@@ -107,10 +105,11 @@ struct saltation {
     double size;                   /* of the terms of the first of along_rates */
 };
 
-/* Takes the memory, and writes what follows from the state before an event of the problem, and the motion there. Returns
-   false when out of memory. */
-static bool open_saltation(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
-                           const double *before, struct saltation *saltation)
+/* Takes the memory, and writes what follows from the state before an event of the problem, with these modes, and the motion
+   there. Returns false when out of memory. */
+static bool open_saltation(const struct gm_problem *problem, const double *modes,
+                           const struct gm_problem *motion, size_t event, const double *before,
+                           struct saltation *saltation)
 {
     const struct gm_user_event *formulas = event_of(problem, event);
     const size_t width = problem->n + 1, rows = 1 + formulas->changed;
@@ -124,12 +123,10 @@ static bool open_saltation(const struct gm_problem *problem, const struct gm_pro
     saltation->along_rates = saltation->v + width;
     saltation->along_v = saltation->along_rates + rows;
     struct gm_user_data *self = gm_user_data_of(problem);
-    if (event < self->model->event_count) {
-        gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
+    if (self->model->frozen) {
+        frozen_values(problem, &self->event_slopes[event], modes, before, saltation->slopes);
     } else {
-        frozen_values(problem, &self->event_slopes[event],
-                      gm_user_data_of(motion)->values + self->model->system->variable_count, before,
-                      saltation->slopes);
+        gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
     }
     field_at(motion, before, saltation->before);
     slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
@@ -137,30 +134,35 @@ static bool open_saltation(const struct gm_problem *problem, const struct gm_pro
     return true;
 }
 
-static double rate(const struct gm_problem *problem, const struct gm_problem *motion, size_t event,
-                   const double *look)
+static double rate(const struct gm_problem *problem, const double *modes, const struct gm_problem *motion,
+                   size_t event, const double *look)
 {
     struct saltation saltation;
     const double sum =
-        open_saltation(problem, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
+        open_saltation(problem, modes, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
     free(saltation.slopes);
     return sum;
 }
 
 /* to := S from, for every tangent that the state holds, or for an error if it holds none. Returns false where the
-   motion only touches g = 0, or when out of memory. */
+   motion only touches g = 0, without a cause, or when out of memory. */
 static bool carry_all(const struct gm_problem *problem, const struct gm_event_part *part, const double *from,
                       double *to)
 {
     const struct gm_user_event *formulas = event_of(problem, part->event);
     const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
     const size_t motion = gm_system_motion(system);
-    struct saltation saltation;
-    if (!open_saltation(problem, part->ahead, part->event, part->before, &saltation)) {
+    struct saltation saltation, cause;
+    if (part->cause == gm_user_data_of(problem)->events.count ||
+        !open_saltation(problem, part->modes, part->ahead, part->event, part->before, &saltation)) {
+        return false;
+    }
+    if (!open_saltation(problem, part->modes, part->ahead, part->cause, part->before, &cause)) {
+        free(saltation.slopes);
         return false;
     }
     field_at(part->beyond, part->after, saltation.after);
-    const bool passes = fabs(saltation.along_rates[0]) > 1e-12 * saltation.size;
+    const bool passes = fabs(cause.along_rates[0]) > 1e-12 * cause.size;
     for (size_t k = system->tangents > 0; k <= system->tangents && passes; k++) {
         double *v = saltation.v, unused;
         memset(v, 0, (problem->n + 1) * sizeof *v);
@@ -169,7 +171,8 @@ static bool carry_all(const struct gm_problem *problem, const struct gm_event_pa
         }
         v[system->n] = k == 0 && problem->n > system->n ? from[system->n] : 0;
         slopes_along(problem, part->event, saltation.slopes, v, saltation.along_v, &unused);
-        const double late = saltation.along_v[0] / saltation.along_rates[0];
+        slopes_along(problem, part->cause, cause.slopes, v, cause.along_v, &unused);
+        const double late = cause.along_v[0] / cause.along_rates[0];
         for (size_t c = 0, row = 0; c < system->n; c++) {
             const bool changes = row < formulas->changed && formulas->components[row] == c;
             row += changes;
@@ -180,6 +183,7 @@ static bool carry_all(const struct gm_problem *problem, const struct gm_event_pa
             to[gm_system_component(system, c, k)] = v[gm_system_component(system, c, 0)];
         }
     }
+    free(cause.slopes);
     free(saltation.slopes);
     return passes;
 }
@@ -214,26 +218,33 @@ static void conserved(const struct gm_problem *problem, const double *look, doub
 
 /* ---- opening ---- */
 
-/* Names the tapes of located breaks. */
-static void open_breaks(struct gm_user_data *self, const char **names, enum gm_event_form *forms)
+/* Names the formulas of a tape of the system with frozen switches. */
+static void compile_frozen(struct gm_user_data *self, struct gm_late_tape *tape, const gm_node_id *nodes,
+                           size_t count)
+{
+    const struct gm_user_system *system = &self->model->frozen->system;
+    *tape = (struct gm_late_tape){&system->graph, nodes, count, system->variable_count, NULL, NULL};
+    gm_arena_keep(self->arena, tape, gm_late_tape_close);
+}
+
+/* Describes the switches, and names the tapes of their slopes. */
+static void open_switches(struct gm_user_data *self, const char **names, enum gm_event_form *forms)
 {
     const struct gm_user_frozen *frozen = self->model->frozen;
-    const struct gm_formula *graph = &frozen->system.graph;
-    const size_t first = self->model->event_count, inputs = frozen->system.variable_count;
+    const size_t first = self->model->event_count;
     const char **surfaces = gm_arena_take(self->arena, frozen->count, sizeof *surfaces);
     self->events.surfaces = surfaces;
+    self->events.inner = frozen->inner;
     for (size_t i = 0; i < frozen->count; i++) {
-        const struct gm_user_event *event = &frozen->events[i];
         names[first + i] = "";
         forms[first + i] = frozen->list[i].whole ? GM_AT_WHOLE : GM_AT_ZERO;
         surfaces[i] = frozen->list[i].text;
-        self->event_slopes[first + i] =
-            (struct gm_late_tape){graph, event->slope_nodes, event->slopes.count, inputs, NULL, NULL};
-        gm_arena_keep(self->arena, &self->event_slopes[first + i], gm_late_tape_close);
     }
-    self->tapes[GM_USER_BREAKS] =
-        (struct gm_late_tape){graph, frozen->surfaces, frozen->count, inputs, NULL, NULL};
-    gm_arena_keep(self->arena, &self->tapes[GM_USER_BREAKS], gm_late_tape_close);
+    for (size_t i = 0; i < first + frozen->count; i++) {
+        const struct gm_user_event *event = i < first ? &frozen->model.events[i] : &frozen->events[i - first];
+        compile_frozen(self, &self->event_slopes[i], event->slope_nodes, event->slopes.count);
+    }
+    compile_frozen(self, &self->tapes[GM_USER_SURFACES], frozen->surfaces, first + frozen->count);
 }
 
 void gm_user_events_open(struct gm_problem *problem)
@@ -241,8 +252,8 @@ void gm_user_events_open(struct gm_problem *problem)
     struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_user_model *model = self->model;
     const struct gm_user_system *system = model->system;
-    const size_t written = model->event_count, breaks = model->frozen ? model->frozen->count : 0,
-                 count = written + breaks, inputs = system->n + 1;
+    const size_t written = model->event_count, count = written + (model->frozen ? model->frozen->count : 0),
+                 inputs = system->n + 1;
     if (count == 0) {
         return;
     }
@@ -254,7 +265,8 @@ void gm_user_events_open(struct gm_problem *problem)
     self->changes = gm_arena_take(self->arena, count, sizeof *self->changes);
     self->event_slopes = gm_arena_take(self->arena, count, sizeof *self->event_slopes);
     self->events = (struct gm_events){.count = count,
-                                      .breaks = breaks,
+                                      .written = written,
+                                      .breaks = model->frozen ? model->frozen->breaks : 0,
                                       .names = names,
                                       .ends = ends,
                                       .forms = forms,
@@ -264,8 +276,10 @@ void gm_user_events_open(struct gm_problem *problem)
                                       .carry = carry,
                                       .carry_within = carry_within,
                                       .conserved = conserved};
-    if (breaks > 0) {
-        open_breaks(self, names, forms);
+    if (model->frozen) {
+        open_switches(self, names, forms);
+    } else {
+        gm_user_compile(self, &self->tapes[GM_USER_SURFACES], model->surfaces, written, inputs);
     }
     for (size_t i = 0; i < written; i++) {
         const struct gm_user_event *event = &model->events[i];
@@ -275,7 +289,9 @@ void gm_user_events_open(struct gm_problem *problem)
         self->events.ends_runs |= ends[i];
         self->events.changes |= !ends[i];
         gm_user_compile(self, &self->changes[i], event->nodes, event->conditions + event->changed, inputs);
-        gm_user_compile(self, &self->event_slopes[i], event->slope_nodes, event->slopes.count, inputs);
+        if (!model->frozen) {
+            gm_user_compile(self, &self->event_slopes[i], event->slope_nodes, event->slopes.count, inputs);
+        }
     }
     for (size_t i = 0; i < system->item_count && self->events.changes; i++) {
         const gm_node_id node = gm_system_conserved(system, &system->items[i]);
@@ -290,7 +306,6 @@ void gm_user_events_open(struct gm_problem *problem)
         booked[quantities] = system->energy;
     }
     self->events.quantities = quantities + self->events.has_energy;
-    gm_user_compile(self, &self->tapes[GM_USER_SURFACES], model->surfaces, written, inputs);
     gm_user_compile(self, &self->tapes[GM_USER_BOOKED], booked,
                     quantities + (self->events.has_energy && formula), inputs);
     problem->events = &self->events;

@@ -54,7 +54,7 @@ struct gm_user_bracket {
 struct gm_user_event {
     const struct gm_system_item *item;
     enum gm_event_form form;
-    gm_node_id surface;         /* g */
+    bool switches;              /* g is not smooth */
     size_t conditions, changed; /* numbers of these */
     size_t *components;         /* [changed] */
     gm_node_id *nodes;          /* conditions, then new values of these components */
@@ -80,7 +80,7 @@ struct gm_user_model {
     struct gm_user_event *events; /* in the order of the file */
     size_t event_count;
     gm_node_id *surfaces;          /* [event_count], the g that become 0 */
-    struct gm_user_frozen *frozen; /* NULL: no breaks are located */
+    struct gm_user_frozen *frozen; /* NULL: no breaks are located, and events have no switches */
     const char *names;             /* the components' names, in the format of struct gm_ode */
 };
 
@@ -89,9 +89,10 @@ struct gm_user_frozen {
     struct gm_user_system system;
     struct gm_user_model model;
     struct gm_break *list;
-    size_t count;
-    gm_node_id *surfaces; /* [count], g of each */
-    gm_node_id *inside;   /* [count], above 0 while g has not left the side, or the interval, of its mode */
+    size_t breaks, count; /* the first are the switches of rates; others are of events alone */
+    gm_node_id *surfaces; /* g of the events of the file, then of each switch */
+    bool *inner;          /* [count]: the g of an event holds it */
+    gm_node_id *inside;   /* [breaks], above 0 while g has not left the side, or the interval, of its mode */
     struct gm_user_event *events; /* [count], with the slopes of g */
 };
 

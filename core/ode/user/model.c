@@ -167,24 +167,6 @@ static void open_one_form(struct gm_arena *arena, const struct opening *opening)
     }
 }
 
-/* Returns g of an event. mod(a, b) = h, if h does not change, happens where (a - h)/b is a whole number. */
-static gm_node_id surface_of(struct gm_user_system *system, gm_node_id g, const bool *marked,
-                             enum gm_event_form *form)
-{
-    struct gm_formula *graph = &system->graph;
-    const struct gm_node node = graph->nodes[g];
-    const bool differs = node.operation == GM_OPERATION_SUBTRACT &&
-                         !gm_formula_holds(graph, node.b, marked, system->variable_count);
-    const struct gm_node mod = graph->nodes[differs ? node.a : g];
-    if (mod.operation != GM_OPERATION_MOD) {
-        return g;
-    }
-    *form = GM_AT_WHOLE;
-    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
-                            differs ? gm_formula_apply(graph, GM_OPERATION_SUBTRACT, mod.a, node.b) : mod.a,
-                            mod.b);
-}
-
 /* Returns true if a function with these slopes changes only by jumps, its own ones or those of components without a
    rate at events. */
 static bool only_jumps(const struct gm_user_system *system, const struct gm_sparse *slopes)
@@ -212,8 +194,9 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->form = only_jumps(system, &own) ? GM_AT_JUMP : GM_AT_ZERO;
     event->conditions = item->count - first;
     event->components = gm_arena_take(arena, n + 1, sizeof *event->components);
-    nodes[0] =
-        event->form == GM_AT_JUMP ? item->nodes[0] : surface_of(system, item->nodes[0], marked, &event->form);
+    event->switches =
+        gm_formula_kink(&system->graph, item->nodes[0], marked, system->variable_count) != GM_NO_NODE;
+    nodes[0] = item->nodes[0];
     for (size_t c = 0; c < n && !item->ends; c++) {
         const struct gm_node *node = &system->graph.nodes[item->nodes[1 + c]];
         if (node->operation != GM_VARIABLE || node->a != c) {
@@ -227,7 +210,6 @@ static void open_event(struct gm_arena *arena, const struct opening *opening,
     event->slopes =
         gm_sparse_jacobian(arena, &system->graph, nodes, 1 + event->changed, marked, system->variable_count);
     event->slope_nodes = gm_sparse_nodes(arena, NULL, 0, &event->slopes);
-    event->surface = nodes[0];
 }
 
 static void open_events(struct gm_arena *arena, const struct opening *opening)
@@ -240,8 +222,7 @@ static void open_events(struct gm_arena *arena, const struct opening *opening)
         const struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_EVENT || item->word == GM_WORD_STOP) {
             open_event(arena, opening, item, &model->events[model->event_count]);
-            model->surfaces[model->event_count] = model->events[model->event_count].surface;
-            model->event_count++;
+            model->surfaces[model->event_count++] = item->nodes[0];
         }
     }
 }
@@ -249,6 +230,8 @@ static void open_events(struct gm_arena *arena, const struct opening *opening)
 static bool open_all(struct gm_user_model *model, struct gm_user_system *system, bool whole);
 
 /* ---- frozen switches ---- */
+
+enum { MOST_SWITCHES = 2 * GM_MOST_BREAKS };
 
 static void close_system(void *data)
 {
@@ -268,17 +251,18 @@ static void read_again(struct gm_arena *arena, const struct gm_user_system *syst
     gm_arena_need(arena, open_all(&frozen->model, &frozen->system, false));
 }
 
-/* Freezes the switches of the rates in all formulas that schemes are made of. */
-static void freeze_all(struct gm_arena *arena, struct gm_user_frozen *frozen)
+/* Freezes the switches of the rates in all formulas that schemes are made of, if breaks are located, and those of
+   events. */
+static void freeze_all(struct gm_arena *arena, struct gm_user_frozen *frozen, bool locates)
 {
     struct gm_user_system *system = &frozen->system;
     struct gm_user_model *model = &frozen->model;
     bool *varying = gm_arena_take(arena, system->variable_count, sizeof *varying);
     memset(varying, true, system->parameters);
     struct gm_system_variable *variables =
-        gm_arena_take(arena, system->variable_count + GM_MOST_BREAKS, sizeof *variables);
+        gm_arena_take(arena, system->variable_count + MOST_SWITCHES, sizeof *variables);
     memcpy(variables, system->variables, system->variable_count * sizeof *variables);
-    for (size_t i = 0; i < GM_MOST_BREAKS; i++) {
+    for (size_t i = 0; i < MOST_SWITCHES; i++) {
         variables[system->variable_count + i] =
             (struct gm_system_variable){.name = "", .start = GM_NO_NODE, .force = GM_NO_NODE};
     }
@@ -286,10 +270,12 @@ static void freeze_all(struct gm_arena *arena, struct gm_user_frozen *frozen)
     struct gm_freezing freezing = {
         .system = system,
         .list = frozen->list,
+        .most = GM_MOST_BREAKS,
         .varying =
             gm_arena_keep(arena, gm_formula_dependent(&system->graph, varying, system->variable_count), free),
         .node_count = system->graph.count};
-    gm_breaks_freeze(arena, &freezing, system->rates, system->n);
+    gm_breaks_freeze(arena, &freezing, system->rates, locates ? system->n : 0);
+    frozen->breaks = freezing.full ? 0 : freezing.count;
     freezing.closed = true;
     for (size_t i = 0; i < model->rate_count; i++) {
         gm_breaks_freeze(arena, &freezing, model->rates[i].nodes, model->components);
@@ -303,7 +289,19 @@ static void freeze_all(struct gm_arena *arena, struct gm_user_frozen *frozen)
             gm_breaks_freeze(arena, &freezing, item->nodes, item->count);
         }
     }
-    frozen->count = freezing.full ? 0 : freezing.count;
+    freezing.closed = freezing.full = false;
+    freezing.most = MOST_SWITCHES;
+    gm_breaks_freeze(arena, &freezing, model->surfaces, model->event_count);
+    freezing.closed = true;
+    for (size_t i = 0; i < model->event_count; i++) {
+        struct gm_user_event *event = &model->events[i];
+        size_t own = 0; /* the slopes of g come first */
+        while (own < event->slopes.count && event->slopes.entries[own].row == 0) {
+            own++;
+        }
+        gm_breaks_freeze(arena, &freezing, event->slope_nodes, own);
+    }
+    frozen->count = freezing.count;
 }
 
 /* s g, or (g - k)(k + 1 - g). */
@@ -322,14 +320,16 @@ static gm_node_id inside(struct gm_formula *graph, const struct gm_break *one)
 static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
 {
     struct gm_user_frozen *frozen = gm_arena_take(arena, 1, sizeof *frozen);
-    frozen->list = gm_arena_take(arena, GM_MOST_BREAKS, sizeof *frozen->list);
+    frozen->list = gm_arena_take(arena, MOST_SWITCHES, sizeof *frozen->list);
     read_again(arena, model->system, frozen);
-    freeze_all(arena, frozen);
+    freeze_all(arena, frozen, gm_system_locates_breaks(model->system));
     struct gm_user_system *system = &frozen->system;
-    const size_t count = frozen->count;
+    const size_t count = frozen->count, written = model->event_count;
     bool *marked = gm_arena_take(arena, system->variable_count, sizeof *marked);
     memset(marked, true, system->n + 1);
-    frozen->surfaces = gm_arena_take(arena, count + 1, sizeof *frozen->surfaces);
+    frozen->surfaces = gm_arena_take(arena, written + count, sizeof *frozen->surfaces);
+    memcpy(frozen->surfaces, frozen->model.surfaces, written * sizeof *frozen->surfaces);
+    frozen->inner = gm_arena_take(arena, count + 1, sizeof *frozen->inner);
     frozen->inside = gm_arena_take(arena, count + 1, sizeof *frozen->inside);
     frozen->events = gm_arena_take(arena, count + 1, sizeof *frozen->events);
     for (size_t i = 0; i < count; i++) {
@@ -341,7 +341,13 @@ static void open_frozen(struct gm_arena *arena, struct gm_user_model *model)
         system->variables[one->variable].name =
             gm_arena_print(arena, "%s(%s)", one->whole ? "floor" : "sign", one->text);
         free(text);
-        frozen->surfaces[i] = one->surface;
+        frozen->surfaces[written + i] = one->surface;
+        bool *mode = gm_arena_take(arena, system->variable_count, sizeof *mode);
+        mode[one->variable] = true;
+        for (size_t k = 0; k < written; k++) {
+            frozen->inner[i] |=
+                gm_formula_holds(&system->graph, frozen->surfaces[k], mode, system->variable_count);
+        }
         frozen->inside[i] = inside(&system->graph, one);
         event->slopes =
             gm_sparse_jacobian(arena, &system->graph, &one->surface, 1, marked, system->variable_count);
@@ -381,7 +387,11 @@ static void open_model(struct gm_arena *arena, void *data)
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }
     gm_arena_need(arena, !system->graph.failed);
-    if (opening->whole && gm_system_locates_breaks(system)) {
+    bool switches = gm_system_locates_breaks(system);
+    for (size_t i = 0; i < model->event_count; i++) {
+        switches |= model->events[i].switches;
+    }
+    if (opening->whole && switches) {
         open_frozen(arena, model);
     }
 }

@@ -555,7 +555,8 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
         return false;
     }
     memcpy(values, data->values, own * sizeof *values);
-    memcpy(values + own, modes, frozen->count * sizeof *values);
+    memset(values + own, 0, (frozen->system.variable_count - own) * sizeof *values);
+    memcpy(values + own, modes, frozen->breaks * sizeof *values);
     const bool good = gm_user_problem_open(opened, &frozen->model, values);
     free(values);
     if (good) {
@@ -563,7 +564,7 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
         opened->bound = problem->bound;
         opened->events = NULL;
         struct gm_user_data *self = gm_user_data_of(opened);
-        gm_user_compile(self, &self->tapes[GM_KERNEL_SURFACES], frozen->inside, frozen->count, opened->n);
+        gm_user_compile(self, &self->tapes[GM_KERNEL_SURFACES], frozen->inside, frozen->breaks, opened->n);
     }
     return good;
 }
@@ -571,7 +572,7 @@ static bool open_frozen(const struct gm_problem *problem, const double *modes, s
 static const struct gm_problem *freeze(const struct gm_problem *problem, void **frozen, const double *modes)
 {
     const struct gm_loops *loops = gm_user_data_of(problem)->frozen_loops;
-    const size_t size = gm_user_data_of(problem)->model->frozen->count * sizeof *modes;
+    const size_t size = gm_user_data_of(problem)->model->frozen->breaks * sizeof *modes;
     struct frozen_problems *kept = *frozen = *frozen ? *frozen : calloc(1, sizeof *kept);
     size_t i = 0;
     while (kept && i < KEPT && (kept->list[i].n == 0 || memcmp(kept->modes[i], modes, size) != 0)) {

@@ -655,7 +655,7 @@ static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const
             const struct gm_observable *observable = &scene->observables[i];
             const bool of_disc = strncmp(observable->key, "area", 4) == 0;
             const bool swings = strcmp(observable->key, "energy") == 0; /* it does not compare schemes */
-            const bool repeats = events && events->count - events->breaks == 1 &&
+            const bool repeats = events && events->written == 1 &&
                                  strncmp(observable->key, "events_", 7) == 0; /* the number of all events */
             if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings ||
                 repeats) {

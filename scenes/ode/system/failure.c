@@ -189,7 +189,7 @@ static bool tell_event(const struct failed *failed)
     const struct gm_events *events = failed->view->problem->events;
     const struct gm_system_item *item = system->items;
     size_t line, column;
-    if (!events || run->turned >= events->count - events->breaks) {
+    if (!events || run->turned >= events->written) {
         return false;
     }
     for (size_t passed = 0; passed <= run->turned; item++) {
