@@ -379,10 +379,12 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
     scheme->family->kind->certify(scheme, &certificate);
     /* on the program's own systems nothing excuses a claim; but a user's scheme may fit none of them */
     const bool untried = scheme->word && !certificate.order_problem[0];
-    const char *reason =
-        untried ? "no problem of the certificates fits it: name a system, --on SYSTEM" : NULL;
+    const char *reason = untried ? "no problem of the certificates fits it: name a system, --on SYSTEM"
+                                 : "no problem of the certificates measures it: name a system, --on SYSTEM";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        certificate.claims[bit].reason = certificate.claims[bit].claimed ? reason : NULL;
+        const struct gm_verdict *verdict = &certificate.claims[bit];
+        const bool open = scheme->word && verdict->claimed && !verdict->measured && !verdict->undecided;
+        certificate.claims[bit].reason = open ? reason : NULL;
     }
     certificate.order_reason = untried ? reason : certificate.order_reason;
     certificate.order_holds = certificate.order_holds || untried;

@@ -478,7 +478,8 @@ def adjoints_and_compositions_have_the_claims_of_their_bases(folder):
         keys = {"S": "symplectic", "=": "symmetric", "R": "reversible", "H": "keeps energy", "L": "keeps linear invariants",
                 "V": "keeps volume", "N": "keeps momentum maps", "K": "keeps constraints", "T": "keeps hidden constraints"}
         check(found == {keys[letter] for letter in claims} and row["order"] == order, f"{scheme}: {row['order']} {found}")
-    for scheme in "adjoint(boris2)", "composition(avf2; 1/2, 1/2)", "composition(rattle2; 1/2, 1/2)":
+    for scheme in ("adjoint(boris2)", "adjoint(volume-splitting2)", "composition(avf2; 1/2, 1/2)",
+                   "composition(rattle2; 1/2, 1/2)"):
         code, text = certify(scheme)
         check(code == 0 and "BROKEN" not in text and "symmetric                      holds" in text, f"{scheme}: {text}")
     code, text = certify("composition(explicit-euler, avf2; 1/2, 1/2; claims: keeps energy)")

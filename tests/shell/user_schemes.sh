@@ -117,6 +117,10 @@ done <<END
 2 composition(boris2; 1/3, 2/3)
 END
 
+# what no problem of the certificates measures is open
+status 0 certify 'relaxed(rk4; I1)'
+grep -q 'L conserves linear invariants .*name a system, --on SYSTEM' out || fail "relaxed(rk4; I1): $(cat out)"
+
 # a part with coefficients loses energy, though in short steps only round-off shows
 status 4 certify 'composition(gauss8, avf4; claims: keeps energy; 1/2, 1/2)'
 grep -q 'H conserves energy *BROKEN.*refuted by theory' out || fail "gauss8 and avf4 in turns: $(cat out)"

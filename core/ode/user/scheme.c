@@ -1141,7 +1141,8 @@ static void finish(const struct making *making, struct own *self, const char *na
     }
     if (parts_of(row)) {
         theory = theory_of_parts(making, parts_of(row), theory.order);
-        row->exact = NULL; /* theory is of T and V */
+        row->exact = NULL;                                                        /* theory is of T and V */
+        theory.symplectic = theory.symplectic && !(row->needs & GM_NEEDS_VOLUME); /* no Hamiltonian */
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS && !theory.known && theory.order == 0; word++) {
         theory.order = schemes[word].count > 0 ? schemes[word].at[0]->order : 0;
