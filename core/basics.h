@@ -8,8 +8,8 @@
 
 /* A hot loop over points, compiled for several instruction sets and picked when the program is loaded. No
    clone fuses or reorders an operation (-ffp-contract=off), so all give the same bits. It is inlined
-   nowhere. */
-#ifdef GM_LOOPS_X86
+   nowhere. clang 14 cannot link clones of one name in two files, even of static functions. */
+#if defined GM_LOOPS_X86 && !defined __clang__
 #define GM_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define GM_CLONES __attribute__((noinline))
