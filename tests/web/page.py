@@ -145,6 +145,19 @@ def pixels(path):
                           capture_output=True, check=True).stdout
 
 
+def pictures(path):
+    """The sums of a movie's pictures."""
+    lines = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "framemd5", "-"], capture_output=True, check=True, text=True)
+    return [line.split(",")[-1] for line in lines.stdout.splitlines() if not line.startswith("#")]
+
+
+async def arrives(path):
+    for _ in range(100):
+        if os.path.exists(path):
+            break
+        await asyncio.sleep(0.1)
+
+
 async def controls(port):
     words = ["kepler", "scheme=verlet,rk4", "dt=0.05"]
     url = lesson("kepler.html", *words, "--title", "<b>Kepler</b> & </script><script>document.title='no'</script>")
@@ -169,10 +182,7 @@ async def controls(port):
     await page.click("close")
     await page.click("save")
     saved, made = folder + "/kepler.png", folder + "/native.png"
-    for _ in range(100):
-        if os.path.exists(saved):
-            break
-        await asyncio.sleep(0.1)
+    await arrives(saved)
     subprocess.run([build + "/app/geomint", *shlex.split(command)[1:], "--painter", "own", "-o", made], check=True,
                    capture_output=True)
     check("the PNG has the pixels of geomint render", pixels(saved) == pixels(made))
@@ -201,7 +211,13 @@ async def controls(port):
     check("a right formula", numbers(await page.view()) == numbers(native.order("forward").view()))
 
     await page.value("play(true)")
-    await page.until("view.t > 1")
+    await page.value("at('record').click()")
+    frames = await page.value("Number(document.body.dataset.frames)")
+    await page.until(f"view.t > 1 && document.body.dataset.frames > {frames + 30}")
+    await page.value("at('record').click()")
+    movie = folder + "/system.webm"
+    await arrives(movie)
+    check("a movie moves", len(set(pictures(movie))) > 10, set(pictures(movie)))
     await page.value("play(false)")
     await page.value("at('line').value = 0.5; at('line').dispatchEvent(new Event('input'))")
     await page.until("view.t <= 0.5")
