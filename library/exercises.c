@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Explored lanes as the answer to an exercise of a tour. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "app/base/files.h"
 #include "app/tours/tour.h"
@@ -25,6 +26,10 @@ static const struct gm_tour_step *open_step(geomint *handle, const char *word, s
     if (!handle->session || step < 1 || step > tour->count || tour->steps[step - 1].expectation_count == 0) {
         gm_handle_refuse(handle, GEOMINT_USAGE,
                          "an exercise is a step of a tour with expect:, for explored lanes");
+        return NULL;
+    }
+    if (!gm_exercise_is_about(&tour->steps[step - 1], handle->request->scene, message)) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, message);
         return NULL;
     }
     return &tour->steps[step - 1];
@@ -54,6 +59,11 @@ const char *geomint_answer(geomint *handle, const char *word, size_t number)
         free(handle->text);
         text = handle->text = gm_answer_write(&tour, number - 1, handle->request,
                                               (const struct gm_lane *const *)handle->session->lanes);
+        if (text && strlen(text) > GM_MOST_ANSWER) {
+            text = NULL;
+            gm_handle_refuse(handle, GEOMINT_USAGE,
+                             "the answer is too long: restart and change less during the run");
+        }
     }
     gm_tour_close(&tour);
     gm_call_end(&call);

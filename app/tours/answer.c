@@ -130,10 +130,7 @@ static void grade(struct gm_arena *arena, void *data)
     struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
     gm_arena_check(arena, gm_request_recall(request, grading->entries[RUN], message), message);
     gm_arena_keep(arena, request, gm_request_close);
-    const struct gm_scene *scene = request->scene, *shown = step->request.scene;
-    gm_arena_refuse_if(
-        arena, scene != shown && !(scene->text && shown->text && strcmp(scene->text, shown->text) == 0),
-        "the exercise is about %s, and the answer about %s", shown->name, scene->name);
+    gm_arena_check(arena, gm_exercise_is_about(step, request->scene, message), message);
     gm_arena_refuse_if(arena,
                        grading->entries[CHANGE] && !gm_changes_parse(request, grading->entries[CHANGE]),
                        "a change of the answer is not \"LANE STEP key=value\"");

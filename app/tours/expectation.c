@@ -103,6 +103,13 @@ bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, c
 
 /* ---- grading ---- */
 
+bool gm_exercise_is_about(const struct gm_tour_step *step, const struct gm_scene *scene, char *message)
+{
+    const struct gm_scene *shown = step->request.scene;
+    return scene == shown || (scene->text && shown->text && strcmp(scene->text, shown->text) == 0) ||
+           gm_refuse(message, "the exercise is about %s, and the answer about %s", shown->name, scene->name);
+}
+
 /* Returns the least value that measurement gives for the schemes of a lane. */
 static double certified_value(const struct gm_lane *lane, size_t name)
 {

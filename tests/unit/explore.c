@@ -401,6 +401,11 @@ static void exercises_are_graded(void **unused)
     assert_null(geomint_answer(lab, "exercises", 0));
     assert_int_equal(geomint_grade(NULL, "exercises", 1), GEOMINT_MEMORY);
     geomint_close(lab);
+    lab = geomint_explore(WORDS("vortices", "scheme=rk4"));
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_USAGE,
+           "the exercise is about disc, and the answer about vortices");
+    assert_null(geomint_answer(lab, "exercises", 1));
+    geomint_close(lab);
 }
 
 int main(void)
