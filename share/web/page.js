@@ -10,7 +10,7 @@ const colours = [['#0379db', '#83d1ff'], ['#ec5100', '#ffa226'], ['#1aa770', '#7
     ['#7a0102', '#6272fa'], ['#03624a', '#87814a']];
 const most = 6; // lanes
 
-let view = null, schemes = [], words = lesson.words, playing = false, speed = 1, chosen = 0, forking = false, started = false;
+let view = null, schemes = [], words = lesson.words.length > 0 ? lesson.words : ['kepler'], playing = false, speed = 1, chosen = 0, forking = false, started = false;
 let theme = null; // what was chosen instead of the system's
 
 function make(name, properties, ...inside) {
@@ -27,33 +27,43 @@ let worker, waiting = new Map(), number = 0, patience;
 function ask(name, value) {
     return new Promise(resolve => {
         waiting.set(++number, resolve);
-        worker.postMessage({id: number, name, value});
-        patience = patience || setTimeout(() => crash('The program has been busy for ten seconds: a step may be very costly.'), 10000);
+        worker?.postMessage({id: number, name, value});
+        patience = patience || worker && setTimeout(() => complain('The program has been busy for ten seconds. You can wait for it.'), 10000);
     });
 }
 
-function crash(sentence) {
+// Shows a sentence and a way to start again.
+function complain(sentence) {
     at('crash-text').textContent = sentence;
     at('crash').hidden = false;
     at('revive').focus();
 }
 
-async function begin() {
+function crash(reason) {
+    worker.terminate();
+    worker = null;
+    rest();
+    complain(`The program has stopped: ${reason}.`);
+}
+
+// The program has answered, or none runs.
+function rest() {
     at('crash').hidden = true;
-    if (worker) {
-        worker.terminate();
-    }
-    waiting = new Map();
     clearTimeout(patience);
     patience = null;
+}
+
+async function begin() {
+    rest();
+    worker?.terminate();
+    waiting = new Map();
     const source = URL.createObjectURL(new Blob([at('worker').textContent], {type: 'text/javascript'}));
     worker = new Worker(source);
-    worker.onerror = event => crash(`The program has stopped: ${event.message || 'it could not be started'}.`);
+    worker.onerror = event => crash(event.message || 'it could not be started');
     worker.onmessage = ({data}) => {
-        clearTimeout(patience);
-        patience = null;
+        rest();
         if (data.crash) {
-            crash(`The program has stopped: ${data.crash}.`);
+            crash(data.crash);
         } else if (data.id) {
             waiting.get(data.id)(data.answer);
             waiting.delete(data.id);
@@ -68,12 +78,11 @@ async function begin() {
         at('scene').append(make('option', {value: ''}, '…'), ...scenes.map(name => make('option', {value: name}, name)));
     }
     shape();
-    if (started) {
-        await open(words);
-    } else if (!await openHash()) {
-        await (lesson.steps ? goTo(0) : open(lesson.words.length > 0 ? lesson.words : ['kepler']));
-    }
+    const again = started;
     started = true;
+    if (again || !await openHash()) {
+        await (at('tour').hidden ? open(words) : goTo(stepNumber));
+    }
 }
 
 // Gives an order of geomint.h, and shows the sentence of its refusal.
@@ -133,9 +142,10 @@ function showAll(late) {
     at('overlay').setAttribute('aria-pressed', view.overlaid);
     at('clock').textContent = `t = ${digits(view.t)}`;
     at('clock').title = view.unit;
-    at('speed').textContent = `${speed}/s${late ? ', late' : ''}`;
+    at('speed').textContent = `${speed}/s${late && playing ? ', late' : ''}`;
     const line = at('line');
     line.max = Math.max(view.reach, view.passed, Number.MIN_VALUE);
+    line.setAttribute('aria-valuetext', at('clock').textContent);
     if (document.activeElement !== line || playing) {
         line.value = view.passed;
     }
@@ -182,11 +192,7 @@ function showLanes() {
     }));
 }
 
-async function select(lane) {
-    while (view.selected !== lane && await order('press', 'tab')) {
-        view.selected = (view.selected + 1) % view.lanes.length;
-    }
-}
+const select = lane => ask('select', lane);
 
 function showValues() {
     const table = at('values'), turned = view.turned ? [{key: 'from_start', title: 'from start', unit: ''}] : [];
@@ -307,6 +313,7 @@ async function take(scheme, forks) {
     forking = false;
     if (free ? await order(forks ? 'fork' : 'switch', view.selected, scheme) : say(`There are at most ${most} lanes.`, true)) {
         at('find').value = '';
+        showSchemes();
     }
 }
 
@@ -343,7 +350,7 @@ function split(line) {
     const found = [];
     let depth = 0, quote = '', word = '';
     [...line.trim()].forEach((letter, i, all) => {
-        const rest = all.slice(i + 1).join('');
+        const rest = letter === ' ' ? all.slice(i + 1, i + 65).join('') : '';
         if (letter === quote) {
             quote = '';
         } else if (!quote && (letter === '"' || letter === "'") && /(^|=)$/.test(word)) {
@@ -356,26 +363,26 @@ function split(line) {
             word += letter;
         }
     });
-    const list = [...found, word].filter(Boolean);
-    return /^(H|L|V|S|rate)=/.test(list[0] || '') ? ['system', ...list] : list;
+    return [...found, word];
 }
 
 const typed = list => list.map(word => / /.test(word) && !word.includes('=') ? `"${word}"` : word).join(' ');
 
-async function open(wanted, changes) {
+async function open(list, changes) {
+    const given = list.filter(Boolean), wanted = /^(H|L|V|S|rate)=/.test(given[0] || '') ? ['system', ...given] : given;
     const opened = await ask('open', {words: wanted, changes});
     if (opened.refused) {
         return opened.refused;
     }
     ({view, schemes} = opened);
     setSpeed(opened.span / 6);
-    words = wanted;
+    words = list;
     playing = false;
     failures.clear();
     const file = lesson.files[wanted[0]] !== undefined || wanted[0] === 'system';
     at('scene').value = file ? '' : wanted[0];
     at('words').value = typed(wanted);
-    at('title').textContent = wanted === lesson.words || lesson.steps ? lesson.title : view.title;
+    at('title').textContent = list === lesson.words || lesson.steps ? lesson.title : view.title;
     document.title = at('title').textContent;
     fault('');
     showSchemes();
@@ -396,7 +403,8 @@ function fault(sentence) {
 
 at('formula').onsubmit = async event => {
     event.preventDefault();
-    fault(await open(split(at('words').value)));
+    const refused = await open(split(at('words').value));
+    fault(/^there is no scene|^which scene/.test(refused) ? `${refused}; a formula is H=p^2/2 - cos(q) q=1 p=0, without blanks beside =` : refused);
 };
 at('scene').onchange = async () => at('scene').value && say(await open([at('scene').value]) || view.title);
 
@@ -415,9 +423,10 @@ async function openHash() {
     if (refused) {
         say(`The link was not opened: ${refused}`, true);
     }
+    at('tour').hidden = at('tour').hidden || !refused;
     return !refused;
 }
-addEventListener('hashchange', () => { at('tour').hidden = true; openHash(); });
+addEventListener('hashchange', () => location.hash.length > 1 ? openHash() : location.reload());
 
 // ---- time ----
 
@@ -561,6 +570,9 @@ async function goTo(wanted) {
     answered = !step.ask || step.exercise;
     at('tour').hidden = false;
     const refused = await open(steps[first].show, [...plan, {t: step.until, lane: -1, text: null}]);
+    if (stepNumber !== index) { // another step was chosen meanwhile
+        return;
+    }
     if (refused) {
         say(refused, true);
     } else if (begins !== null) {
@@ -592,10 +604,10 @@ function showStep(over) {
 }
 
 at('grade').onclick = async () => {
-    const step = lesson.steps[stepNumber], {passed, verdict, answer} = await ask('grade', {tour: lesson.tour, step: stepNumber + 1});
+    const step = lesson.steps[stepNumber], {passed, verdict, answer, refused} = await ask('grade', {tour: lesson.tour, step: stepNumber + 1});
     showStep(false);
     at('tour-text').append(make('p', {id: 'verdict', className: passed ? 'ask' : '', textContent: verdict}),
-        make('p', null, (passed ? step.answer : step.hint) || ''));
+        make('p', null, (passed ? step.answer : step.hint) || ''), refused === verdict ? '' : refused);
     at('hand-in').hidden = !answer;
     at('hand-in').onclick = () => download(`${lesson.tour.replace(/\.tour$/, '')}-${stepNumber + 1}.answer`, new Blob([answer]));
 };
@@ -669,11 +681,11 @@ for (let i = 0; i < most; i++) {
 }
 
 document.addEventListener('keydown', event => {
-    const inside = event.target.closest?.('input:not([type=range]), select, textarea, dialog');
+    const inside = at('sheet').open || event.target.closest?.('input:not([type=range]), select');
     const onButton = event.target.closest?.('button') && (event.key === ' ' || event.key === 'Enter');
     const onSlider = event.target.matches?.('[type=range]') && /^(Arrow|Page|Home|End)/.test(event.key);
-    if (inside && event.key === 'Escape') {
-        event.target.blur();
+    if (event.key === 'Escape') {
+        document.activeElement.blur();
     }
     if (event.ctrlKey || event.metaKey || event.altKey || inside || onButton || onSlider || !view || !keys[event.key]) {
         return;
@@ -693,4 +705,5 @@ at('revive').onclick = begin;
 dark.onchange = shape;
 new ResizeObserver(() => worker && shape()).observe(canvas);
 at('title').textContent = document.title = lesson.title;
+at('tour').hidden = !lesson.steps;
 begin();

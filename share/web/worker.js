@@ -47,38 +47,46 @@ const setClock = () => { clock = performance.now(); clockTime = view.t; };
 const sign = () => view.backwards ? -1 : 1;
 const ended = () => view.lanes.every(lane => lane.status !== 'ok');
 
-// Makes the changes of the tour that are due.
-function keepAgenda() {
-    while (due.length > 0 && !view.backwards && view.t >= due[0].t - 1e-9 * Math.abs(due[0].t)) {
-        const change = due.shift(), [key, ...value] = (change.text || '').split('=');
-        if (!change.text) {
+// Makes a change of the tour; the chosen lane stays.
+function change({lane: only, text: words}) {
+    const {selected} = view, [key, ...rest] = words.split('='), value = rest.join('=');
+    view.lanes.forEach((_, lane) => {
+        if (only < 0 || only === lane) {
+            call(...key === 'scheme' ? ['switch', lab, lane, value] : ['set', lab, lane, key, value]);
+        }
+    });
+    look();
+    select(selected);
+}
+
+// Makes the steps that end at or before a time, with the changes of the tour that are due on the way, up to its stop.
+function advance(wanted) {
+    for (;;) {
+        const next = view.backwards ? undefined : due[0];
+        const limit = next ? Math.min(wanted, next.t) : wanted;
+        call('advance', lab, limit);
+        look();
+        if (!next || limit < next.t) {
+            return;
+        }
+        due.shift();
+        if (!next.text) {
             playing = false;
             postMessage({stop: true});
             return;
         }
-        view.lanes.forEach((_, lane) => {
-            if (change.lane < 0 || change.lane === lane) {
-                call(...key === 'scheme' ? ['switch', lab, lane, value.join('=')] : ['set', lab, lane, key, value.join('=')]);
-            }
-        });
-        look();
+        change(next);
     }
 }
 
-function advance(wanted) {
-    const limit = due.length > 0 && !view.backwards ? Math.min(wanted, due[0].t) : wanted;
-    call('advance', lab, limit);
-    look();
-    keepAgenda();
-}
-
-// Advances for a slice of time towards the time that is due, in parts whose cost is known.
-let part = 0;
+// Advances for a slice of time towards the time that is due, in parts that grow while they cost little. After a change of the
+// lanes a part begins with the least dt, since the cost of a step is unknown then.
+const LEAST = 1e-7;
+let part = LEAST;
 function step() {
     const begun = performance.now(), from = view.t;
     const goal = clockTime + sign() * speed * (begun - clock) / 1000;
     let now = begun;
-    part = part || speed / 1000;
     while (playing && sign() * (goal - view.t) > 0 && now - begun < SLICE) {
         const before = view.t, next = sign() * Math.min(sign() * goal, sign() * (before + sign() * part));
         advance(next);
@@ -146,6 +154,14 @@ function tick() {
 
 // ---- orders of the page ----
 
+// Chooses a lane: the key tab goes from one to the next.
+function select(lane) {
+    while (lane < view.lanes.length && view.selected !== lane) {
+        call('press', lab, 'tab');
+        look();
+    }
+}
+
 // An order of geomint.h for the lanes; returns the sentence of a refusal or "".
 function order(name, ...values) {
     const status = call(name, lab, ...values);
@@ -153,8 +169,9 @@ function order(name, ...values) {
     const before = view.t;
     look();
     if (view.t < before) { // it is shown again
-        due = agenda.filter(({t}) => t > view.t);
+        due = agenda.filter(({t}) => t >= view.t);
     }
+    part = LEAST;
     setClock();
     stale = true;
     return refusal;
@@ -200,7 +217,7 @@ const orders = {
         agenda = changes || [];
         due = [...agenda];
         playing = false;
-        part = 0;
+        part = LEAST;
         look();
         setClock();
         stale = true;
@@ -230,10 +247,14 @@ const orders = {
         stale = true;
     },
     order(values) { return order(...values); },
+    select(lane) {
+        select(lane);
+        stale = true;
+    },
     grade({tour, step}) {
+        const passed = call('grade', lab, tour, step) === 0, verdict = sentence(lab);
         const answer = text(call('answer', lab, tour, step));
-        const passed = call('grade', lab, tour, step) === 0;
-        return {passed, verdict: sentence(lab), answer};
+        return {passed, verdict, answer, refused: answer ? '' : sentence(lab)};
     },
     certify(scheme) {
         const handle = call('certify', scheme, []), certificate = JSON.parse(text(call('text', handle)) || 'null');

@@ -190,6 +190,9 @@ async def controls(port):
     check("the link opens the schemes", [lane["scheme"] for lane in (await other.view())["lanes"]] ==
           [lane["scheme"] for lane in native.view()["lanes"]], link)
 
+    await page.act("[2, 0, 1, 2, 0].forEach(select)")
+    check("a lane is chosen", (await page.view())["selected"] == 0)
+    await page.act("select(2)")
     await page.click("reverse")
     await page.click("forward")
     check("time is turned", numbers(await page.view()) == numbers(native.order("reverse").order("forward").view()))
@@ -277,6 +280,21 @@ async def other_views(port):
             verdict = await page.value("at('verdict').textContent")
             check(f"exercise {step}: {verdict}", verdict == native.message() and verdict.startswith("Passed") == passes,
                   native.message())
+    await page.act("open(['disc'])")
+    await page.click("grade")
+    verdict = await page.value("at('verdict').textContent")
+    check("other equations are no answer", "the exercise is about kepler" in verdict, verdict)
+    with open(folder + "/between.tour", "w", encoding="utf-8") as file:
+        file.write("title: x\nstep: a\nsay: b\nshow: kepler scheme=rk4,rk2 dt=0.3\nuntil: 4\nseconds: 1\nat: 1 lane=2 scheme=verlet\n"
+                   "step: c\nsay: d\nuntil: 7\nseconds: 1\n")
+    page = await Page().open(port, lesson("between.html", "--tour", folder + "/between.tour"))
+    await page.until("!playing && view.t > 3")
+    await page.value("goTo(1)")
+    await page.until("!playing && view.t > 6")
+    native = Native("kepler", "scheme=rk4,rk2", "dt=0.3").order("advance", 1.0).order("switch", 1, "verlet")
+    native.order("advance", 7.0)
+    check("a change and stops between two steps", numbers(await page.view()) == numbers(native.view()), await page.view())
+    check("the change leaves the chosen lane", await page.value("view.selected") == 0)
     await page.act("explain('rk4')")
     check("a certificate", await page.value("at('certificate').innerText.includes('symplectic') && "
                                             "at('sheet-text').innerText.includes('order 4')"))
