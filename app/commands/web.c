@@ -167,14 +167,18 @@ static const char *read_page(const struct gm_options *options)
     return gm_arena_keep(options->arena, page, free);
 }
 
-static void read_tour(const struct gm_options *options, struct gm_tour *tour)
+static void find_tour(const struct gm_options *options, struct gm_file *file)
 {
     char message[GM_MESSAGE];
-    struct gm_file file;
     bool unreadable = false;
-    const bool found = gm_tour_find(options->tour, &file, &unreadable, message);
-    gm_command_end_if(options, !found || !gm_tour_read(tour, &file, message),
-                      found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+    gm_command_end_if(options, !gm_tour_find(options->tour, file, &unreadable, message),
+                      unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
+}
+
+static void read_tour(const struct gm_options *options, const struct gm_file *file, struct gm_tour *tour)
+{
+    char message[GM_MESSAGE];
+    gm_command_end_if(options, !gm_tour_read(tour, file, message), GM_EXIT_FILE, "%s", message);
     gm_arena_keep(options->arena, tour, gm_tour_close);
 }
 
@@ -213,12 +217,16 @@ int gm_command_web(const struct gm_options *options)
     const struct gm_scene *scene = NULL;
     gm_command_end_if(options, options->tour && lesson.words->count > 0, GM_EXIT_USAGE,
                       "web takes a scene or --tour, which has scenes of its own");
+    struct gm_file file;
+    if (options->tour) { /* all tours are looked through, also those that a browser does not have */
+        find_tour(options, &file);
+    }
     seen = gm_arguments_in(options->arena);
     gm_cholesky_do_without("a browser does not have it");
     gm_regular_watch = see;
     const struct gm_request *request = NULL;
     if (options->tour) {
-        read_tour(options, tour);
+        read_tour(options, &file, tour);
         lesson.tour = tour;
     } else if (lesson.words->count > 0) {
         request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
@@ -241,11 +249,14 @@ int gm_command_web(const struct gm_options *options)
     struct gm_text_stream writing;
     FILE *stream = gm_stream_begin(&writing);
     gm_arena_need(options->arena, stream);
-    while (gm_page_next(stream, &page, slot)) {
+    int slots = 0;
+    for (; gm_page_next(stream, &page, slot); slots++) {
         fputs(view, stream);
     }
     char *text = gm_arena_keep(options->arena, gm_stream_end(&writing), free);
     gm_arena_need(options->arena, text);
+    gm_command_end_if(options, slots != 1, GM_EXIT_FILE,
+                      "the page that GEOMINT_WEB names is not one of ./geomint setup web");
     const int problem = gm_temporary_write(path, text, strlen(text));
     gm_command_end_if(options, problem, GM_EXIT_FILE, "%.300s could not be written: %s", path,
                       strerror(problem));

@@ -745,6 +745,8 @@ assert view["words"] == ["own.system", "scheme=rk4,verlet", "dt=0.1"], view["wor
 assert view["title"] == 'A </script><b> & "spring"', view["title"]
 assert view["files"] == {"own.system": open("systems/deep/own.system").read()}, view["files"]
 END
+GEOMINT_WEB=$PWD/page.html refused 3 'is not one of ./geomint setup web' web disc -o none.html
+refused 1 'there is no tour "A"' web --tour A -o none.html
 status 0 web --tour area --title 'Area for 7b' -o tour.html
 python3 - <<'END' || fail 'the steps of a tour in a page'
 import json
