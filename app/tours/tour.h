@@ -84,9 +84,9 @@ bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, c
 /* Returns false with a sentence (GM_MESSAGE bytes) if the step shows another scene than this one. */
 bool gm_exercise_is_about(const struct gm_tour_step *step, const struct gm_scene *scene, char *message);
 
-/* Returns true if a lane of this request, whose scene is the step's, passes the exercise as it is now: it has reached the step's end, meets all
-   expectations, and differs from what the step shows in schemes, the step size, the view and named parameters alone. The
-   sentence (GM_MESSAGE bytes) gives the reason. */
+/* Returns true if a lane of this request, whose scene is the step's, passes the exercise as it is now: it has reached
+   the step's end, meets all expectations, and differs from what the step shows in schemes, the step size, the view and
+   named parameters alone. The sentence (GM_MESSAGE bytes) gives the reason. */
 bool gm_exercise_passed(const struct gm_tour_step *step, const struct gm_request *request,
                         const struct gm_lane *const *lanes, char *sentence);
 
