@@ -220,7 +220,8 @@ async def controls(port):
     await page.value("at('record').click()")
     movie = folder + "/system.webm"
     await arrives(movie)
-    check("a movie moves", len(set(pictures(movie))) > 10, set(pictures(movie)))
+    # a busy machine leaves out pictures, but a movie of one picture would have that alone, and perhaps an empty one
+    check("a movie moves", len(set(pictures(movie))) > 2, set(pictures(movie)))
     await page.value("play(false)")
     await page.value("at('line').value = 0.5; at('line').dispatchEvent(new Event('input'))")
     await page.until("view.t <= 0.5")
