@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every scene, system and room has the same bits whatever functions the C library chooses for the processor, and
-whichever compiler built the program. Usage: bits.py GEOMINT [GEOMINT OF ANOTHER BUILD...]"""
+whichever compiler built the program, which contains no instruction that multiplies and adds with one rounding. Usage:
+bits.py GEOMINT [GEOMINT OF ANOTHER BUILD...]"""
 import hashlib
 import os
 import re
@@ -39,5 +40,11 @@ for run in runs:
     if '"state"' not in outputs[0] or len(set(outputs)) > 1:
         wrong += 1
         print("run", *run, "has", len(set(outputs)), "results")
+for program in programs:
+    code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program], capture_output=True, text=True, check=False).stdout
+    fused = re.findall(r"^.*\b(?:vfn?m(?:add|sub)|fn?m(?:add|sub|la|ls)\b).*$", code, re.MULTILINE)
+    if fused or "<main>:" not in code:
+        wrong += 1
+        print(program, "has", len(fused), "fused instructions or no code:", *fused[:3])
 print(digest.hexdigest(), len(runs), "runs,", wrong, "differ")
 sys.exit(wrong > 0 or len(runs) < 60)
