@@ -490,8 +490,11 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event)
             wait_after(rest, i, after[i]);
         }
     }
-    for (size_t i = events->written; i < events->count; i++) { /* g that jumped are not passed here */
-        rest->places[i] = after[i] != rest->values[i] ? NAN : rest->places[i];
+    /* g that jumped are settled, and not passed here */
+    for (size_t i = events->written; i < events->count; i++) {
+        const bool jumped = after[i] != rest->values[i];
+        rest->places[i] = jumped ? NAN : rest->places[i];
+        rest->causes[i] = jumped && rest->causes[i] >= 0 ? NAN : rest->causes[i];
     }
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);

@@ -311,7 +311,7 @@ def parts_are_typed():
     for words, sentence in ((("run", "kepler", "part=A = (p1^2 + p2^2)/2, B = -2/r", "scheme=strang(A, B)", "steps=1"),
                              "A + B is not H"),
                             (("list", "kepler", "part=A = p1^2/2, B = -1/"), "in part=, column 20"),
-                            (("run", "cavity", "part=A = 1", "steps=1"), 'no parameter "part"'),
+                            (("run", "cavity", "part=A = 1", "steps=1"), "part: is a line of a system's file, not a key"),
                             (("list", "kdv", "H=u"), 'no parameter "H"'),
                             (("run", "lorenz", "scheme=sabac2(linear, rest)", "steps=1"), "for its corrector"),
                             (("run", "abc", "scheme=strang(linear, rest)", "steps=1"), "this system does not have it"),

@@ -991,6 +991,7 @@ printf 'rate: x = 1, y = floor(x) + mod(2*x, 1) + ceil(x) + max(x, 2*x - 1.3) + 
 printf 'rate: z = if(mod(t, 1) < 1/2, 1, -1)\nstart: z = 0\ndt: 0.1\nuntil: 3.25\n' >wave.system
 printf 'rate: z = -z + mod(t, 1)\nstart: z = 0\ndt: 0.1\nuntil: 2\n' >saw.system
 printf 'rate: x = 2.2 - floor(x)\nstart: x = 0.2\ndt: 0.1\nuntil: 5\n' >stairs.system
+printf 'rate: x = 1.4, y = -min(x, floor(3*x) - 1)\nstart: x = 0.2, y = 0\ndt: 0.2\nuntil: 1.8\n' >both.system
 printf 'parameter: z = 0.05\nrate: x = v, v = -x - 2*z*v + 0.2*sign(v)\nstart: x = 0, v = 2.5\ndt: 0.1\nuntil: 60\n' >motor.system
 printf 'parameter: F = 0\nrate: x = v, v = F - x - 0.3*sign(v)\nstart: x = 1, v = 0\ndt: 0.1\nuntil: 20\n' >friction.system
 python3 - "$geomint" <<'END' || fail 'located breaks'
@@ -1023,6 +1024,9 @@ tooth = lambda z: (z + 1) / math.e
 errors = [error("saw.system", (tooth(tooth(0)), 2), "scheme=rk4", "compensated=yes", "dt=%r" % (0.05 / 2**k)) for k in range(9)]
 assert all(abs(math.log2(a / b) - 4) < 0.1 for a, b in zip(errors[:6], errors[1:])), errors
 assert errors[-1] < 1e-15, errors
+# at x = 1 the terms of the minimum meet where one of them jumps
+for dt in "dt=0.2", "dt=0.05", "dt=1.8":
+    assert error("both.system", (2.72, (2/15 - (2.72**2 - 4/9)/2)/1.4), "scheme=rk4", dt) < 1e-13, dt
 # the last of three stairs ends where floor turns the rate back
 assert error("stairs.system", (2 + 0.2*(5 - 0.8/2.2 - 1/1.2), ), "scheme=rk4", "dt=2.5") < 1e-13
 slides = run("stairs.system", "scheme=rk4", "until=10", code=2)
