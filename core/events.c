@@ -437,7 +437,8 @@ static bool passes_here(const struct rest *rest, size_t event)
     return rest->places[event] <= rest->place + TOGETHER;
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion. Returns GM_EVENTS_HAPPENED; GM_EVENTS_FAILED if the scheme cannot start from there. */
+/* Lets an event change the state rest->to at t, or a break the motion. Returns GM_EVENTS_HAPPENED, GM_EVENTS_NO_VALUE, or
+   GM_EVENTS_FAILED if the scheme cannot start from there. */
 static enum gm_event_outcome change(struct rest *rest, double t, size_t event)
 {
     struct gm_event_step *step = rest->step;

@@ -36,12 +36,13 @@ struct gm_events {
     /* v := S v, n numbers, for a small error v of the state before the event,
            S = DR + (f+ - DR f- - dR/dt) grad g' / (grad g . f- + dg/dt)
        with the change y+ = R(y-, t), the fields f- and f+ before and after it, and the g whose passage lets it happen.
-       Returns false where the motion only touches g = 0, or there is no such g. M. A. Aizerman & F. R. Gantmacher, Quart. J. Mech. Appl. Math. 11 (1958) 225. */
+       Returns false where the motion only touches g = 0, or there is no such g. M. A. Aizerman & F. R. Gantmacher,
+       Quart. J. Mech. Appl. Math. 11 (1958) 225. */
     bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
     /* The same for all tangents that the state y after an event holds. */
     void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
-    /* Returns the problem whose breaks are frozen in the first of these modes. It and the one that was returned before stay valid
-       until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
+    /* Returns the problem whose breaks are frozen in the first of these modes. It and the one that was returned before
+       stay valid until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
     void (*melt)(void *frozen);
     /* Returns true if the loops of a motion end before a step that reaches a break (gm_task.watches). */
@@ -54,8 +55,9 @@ struct gm_events {
 
 /* A part of a step that ends with an event. */
 struct gm_event_part {
-    size_t event,
-        cause; /* the number of the g that passes, of the event or a switch in its g; count: another event calls it */
+    size_t event;
+    size_t
+        cause; /* the number of the g that passes, of the event or a switch in its g; count: another event causes it */
     const double *modes;                     /* before it */
     const double *begin, *before, *after;    /* looks: where the part begins, before and after the change */
     const struct gm_problem *ahead, *beyond; /* the motions before and after it */
@@ -112,16 +114,17 @@ enum gm_event_outcome {
 };
 
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
-/* Begins the waiting of switches, and if step->first of all events, in the state `begin` at t, of the last member; counts and
-   jumps stay. */
+/* Begins the waiting of switches, and if step->first of all events, in the state `begin` at t, of the last member; counts
+   and jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
 /* Returns true if some event, at the end of a step, has not the sign that it waits with, or waits with none. */
 bool gm_events_near(const struct gm_event_step *step);
 /* The modes of switches. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
-   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there, or if `turned` is given a step has too many; GM_EVENTS_NO_VALUE: an event changes
-   the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate points back. */
+   `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there, or if `turned` is given a step has too many;
+   GM_EVENTS_NO_VALUE: an event changes the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate
+   points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 
 /* The zero of a function along a step, from `low` to 1, between values of different sign there: the place just
