@@ -49,13 +49,16 @@ class Session:
             environ.pop(name, None)
         self.pid, self.master = pty.fork()
         if self.pid == 0:
-            os.read(0, 1)  # until the size is set
-            os.chdir(self.folder)
-            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
-            for number in NUMBERS.values():
-                signal.signal(number, signal.SIG_DFL)
-            os.execve(command[0], command, environ)
+            try:
+                os.read(0, 1)  # until the size is set
+                os.chdir(self.folder)
+                resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+                resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
+                for number in NUMBERS.values():
+                    signal.signal(number, signal.SIG_DFL)
+                os.execve(command[0], command, environ)
+            finally:
+                os._exit(127)  # the folders belong to the parent
         self.before = termios.tcgetattr(self.master)
         if not discards:
             self.before[3] |= termios.NOFLSH
@@ -446,6 +449,9 @@ class Playing:
 
 
 def main():
+    # A child that is interrupted before it becomes geomint ends at once. Python's own handler would go on to clean up,
+    # and remove the folder of pictures that other sessions read.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     pictures = tempfile.TemporaryDirectory()
     waiting, now, count, failures = list(plays(pictures.name)), [], 0, 0
     waiting.reverse()
