@@ -191,13 +191,23 @@ static unsigned long ticks_of(pid_t group)
     return all;
 }
 
-/* The first line that it complained with. */
-static void first_line(const struct gm_compilation *compilation, char *line, size_t size)
+static bool complains_without_end(const struct gm_compilation *compilation)
 {
-    const ssize_t length = pread(compilation->complaints, line, size - 1, 0);
+    struct stat complaints;
+    return fstat(compilation->complaints, &complaints) == 0 && complaints.st_size > MOST_COMPLAINTS;
+}
+
+/* The first line that it complained with is the reason. */
+static void refuse_with_complaints(const struct gm_compilation *compilation, char *sentence)
+{
+    char line[200];
+    const ssize_t length = pread(compilation->complaints, line, sizeof line - 1, 0);
     line[length > 0 ? length : 0] = '\0';
     line[strcspn(line, "\n")] = '\0';
     gm_text_tame(line);
+    gm_refuse(sentence, "the compiler %s%s%s",
+              complains_without_end(compilation) ? "complained without end" : "failed", line[0] ? ": " : "",
+              line);
 }
 
 /* Returns true, with a sentence, if the compilation must be ended. Waiting for a processor on a busy
@@ -205,11 +215,9 @@ static void first_line(const struct gm_compilation *compilation, char *line, siz
 static bool is_overdue(struct gm_compilation *compilation, char *sentence)
 {
     const double now = gm_clock_seconds(), most = most_seconds();
-    struct stat complaints;
-    if (fstat(compilation->complaints, &complaints) == 0 && complaints.st_size > MOST_COMPLAINTS) {
-        char line[200];
-        first_line(compilation, line, sizeof line);
-        return !gm_refuse(sentence, "the compiler complained without end: %s", line);
+    if (complains_without_end(compilation)) {
+        refuse_with_complaints(compilation, sentence);
+        return true;
     }
     if (now < compilation->seen + most) {
         return false;
@@ -239,23 +247,19 @@ enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *s
         return GM_COMPILES_NOT;
     }
     compilation->process = 0;
-    char line[200];
-    first_line(compilation, line, sizeof line);
-    close(compilation->complaints);
-    if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-        return GM_COMPILED;
-    }
+    const bool compiled = ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     /* ended by its limit's signal, or by a process that ended its children; the limit's clock counts whole
        ticks, too many on a busy machine, so that it differs from the measured time */
     const bool limited = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
     const double seconds = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
                            1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-    if (ended > 0 && (limited || seconds >= 0.9 * most_seconds())) {
+    if (!compiled && ended > 0 && (limited || seconds >= 0.9 * most_seconds())) {
         gm_refuse(sentence, "the compiler took more than %.0f seconds of a processor", most_seconds());
-    } else {
-        gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
+    } else if (!compiled) {
+        refuse_with_complaints(compilation, sentence);
     }
-    return GM_COMPILES_NOT;
+    close(compilation->complaints);
+    return compiled ? GM_COMPILED : GM_COMPILES_NOT;
 }
 
 void gm_compilation_stop(struct gm_compilation *compilation)

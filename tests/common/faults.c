@@ -3,7 +3,8 @@
 
        GM_FAULT=memory:17     the 17th allocation fails; memory:17+ that and all that follow
        GM_FAULT=memory:each   a child is forked for every allocation, which fails in it; its output is DIR/N.out and
-                              DIR/N.err, and a line of DIR/0.ended is N, its wait status, and what was written before
+                              DIR/N.err, and a line of DIR/0.ended is N, its wait status, and what was written before;
+                              memory:each3.1 for every third, from the first one on
        GM_FAULT=files:17      the 17th call that touches a file fails, with ENOSPC or EIO
        GM_FAULT=streams:17    the 17th stream into memory that is closed says that it could not be; streams:each
        GM_FAULT_FOLDER=DIR    of these children
@@ -40,7 +41,8 @@ static struct range {
 static size_t range_count;
 static enum kind { NOTHING, MEMORY, FILES, STREAMS } kind;
 static long wanted;
-static bool from_there_on, each;
+static bool from_there_on;
+static long each, first; /* a child for every each-th call, 0 for none, from this one on */
 static atomic_long *count; /* shared with forked processes */
 
 void *__libc_malloc(size_t size);
@@ -88,7 +90,10 @@ __attribute__((constructor)) static void open_faults(void)
     const char *number = strchr(fault, ':');
     wanted = number ? strtol(number + 1, NULL, 10) : 0;
     from_there_on = strchr(fault, '+') != NULL;
-    each = number && strcmp(number, ":each") == 0;
+    if (number && strncmp(number, ":each", 5) == 0) {
+        each = 1;
+        sscanf(number, ":each%ld.%ld", &each, &first);
+    }
     kind = fault[0] == 'm' ? MEMORY : fault[0] == 's' ? STREAMS : FILES;
     dl_iterate_phdr(add_ranges, NULL);
 }
@@ -121,7 +126,7 @@ static bool is_child(long n)
         static atomic_long own;
         atomic_store(&own, n);
         count = &own;
-        each = false;
+        each = 0;
         syscall(SYS_dup3, open_of_child(n, "out"), STDOUT_FILENO, 0);
         syscall(SYS_dup3, open_of_child(n, "err"), STDERR_FILENO, 0);
         return true;
@@ -142,8 +147,8 @@ static bool fails(enum kind which, const void *caller)
     for (size_t i = 0; i < range_count; i++) {
         if (at >= ranges[i].from && at < ranges[i].to) {
             const long now = atomic_fetch_add(count, 1) + 1;
-            if (each) {
-                return is_child(now);
+            if (each > 0) {
+                return now % each == first % each && is_child(now);
             }
             return wanted > 0 && (from_there_on ? now >= wanted : now == wanted);
         }
