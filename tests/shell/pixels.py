@@ -11,6 +11,8 @@ import sys
 import tempfile
 import time
 
+import numpy
+
 from terminal_emulator import Terminal, read_png
 
 geomint = os.path.realpath(sys.argv[1])
@@ -37,24 +39,15 @@ def reference(steps, width, height, theme='dark'):
     return read_png(f'{out}/disc-render.png')
 
 
-def compare(shown, png, shift=(0, 0)):
+def compare(shown, png):
     """Greatest and mean difference of a channel, and how many pixels of the reference are not shown."""
     width, height, rows = png
-    worst = total = missing = 0
-    for y in range(height):
-        wanted, line = rows[y], shown[y + shift[1]]
-        for x in range(width):
-            pixel = line[x + shift[0]]
-            if pixel is None:
-                missing += 1
-                continue
-            at = 3 * x
-            for k in range(3):
-                off = abs(pixel[k] - wanted[at + k])
-                total += off
-                if off > worst:
-                    worst = off
-    return worst, total / (3 * width * height), missing
+    wanted = numpy.frombuffer(b''.join(rows), numpy.uint8).reshape(height, width, 3).astype(int)
+    seen = [row[:width] for row in shown[:height]]
+    is_shown = numpy.array([[pixel is not None for pixel in row] for row in seen])
+    seen = numpy.array([[pixel or (0, 0, 0) for pixel in row] for row in seen])
+    off = numpy.abs(seen - wanted)[is_shown]
+    return off.max(initial=0), off.sum() / (3 * width * height), int((~is_shown).sum())
 
 
 def paused_at(terminal, steps):
