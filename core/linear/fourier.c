@@ -96,7 +96,8 @@ struct root {
     struct pair re, im;
 };
 
-/* exp(-2 pi i k / n) by Taylor's series at an angle of at most pi: 40 terms leave 1e-28. */
+/* exp(-2 pi i k / n) by Taylor's series at an angle of at most pi: after 40 terms, or one below 2^-110, less than 1e-28 is
+   left. */
 static struct root root_of(size_t k, size_t n)
 {
     enum { TERMS = 40 };
@@ -105,7 +106,7 @@ static struct root root_of(size_t k, size_t n)
     const struct pair angle = divide(multiply(turn, (struct pair){part, 0}), (double)n);
     struct root root = {{1, 0}, {0, 0}};
     struct pair term = {1, 0};
-    for (int j = 1; j <= TERMS; j++) {
+    for (int j = 1; j <= TERMS && fabs(term.high) > 0x1p-110; j++) {
         term = divide(multiply(term, angle), j);
         struct pair *to = j % 2 ? &root.im : &root.re;
         const struct pair minus = {-term.high, -term.low};
