@@ -52,7 +52,10 @@ static void certify(struct gm_arena *arena, void *data)
     struct gm_arguments *typed = gm_arguments_in(arena);
     size_t size;
     gm_arguments_add(typed, opening->scheme);
-    gm_arena_need(arena, gm_arguments_append(typed, (char *const *)opening->words + 1, opening->count - 1));
+    for (int i = 1; i < opening->count; i++) {
+        gm_arguments_add(typed, opening->words[i]);
+    }
+    gm_arena_need(arena, !typed->failed);
     const struct gm_certificate certificate =
         system ? gm_certify_words(arena, system, typed, &opening->refusal) : gm_certify(scheme);
     FILE *stream = open_text(arena, handle, &size);

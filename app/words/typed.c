@@ -144,7 +144,9 @@ static void read_words(struct gm_arguments *words, const char *line, int *shift)
         gm_arguments_add(words, "system");
         ++*shift;
     }
-    gm_arguments_append(words, typed.words + from, typed.count - from);
+    for (int i = from; i < typed.count; i++) {
+        gm_arguments_add(words, typed.words[i]);
+    }
     words->failed = words->failed || typed.failed;
     gm_arguments_close(&typed);
 }
