@@ -125,7 +125,7 @@ static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
         *to++ = differences ? PNG_FILTER_VALUE_UP : PNG_FILTER_VALUE_NONE;
         memcpy(to, from, row);
         for (size_t x = 0; differences && y > 0 && x < row; x++) {
-            to[x] = (unsigned char)(from[x] - from[x - row]);
+            to[x] = (unsigned char)(from[x] - image->pixels[(y - 1) * row + x]);
         }
     }
     if (rows && packed) {

@@ -3,8 +3,10 @@
    and its highest, or at each of its choices, the others at their defaults. Whatever comes is a sentence, a
    status, or finite numbers, in a bounded time; the sanitizers say whether it was come by honestly.
 
-   corners           numbers of points, edges, particles are at most 40: what is asked of memory stays small
-   corners 1000      at most 1000 of them
+   corners           a third of the corners, another one every day; numbers of points, edges, particles are at most 40:
+                     what is asked of memory stays small
+   corners 40        all of them
+   corners 1000      at most 1000 points, edges, particles
    corners 40 pairs  all pairs of corners of two parameters: by hand, for hours
    corners 40 pairs SCENE */
 #include <math.h>
@@ -12,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "app/words/request.h"
@@ -199,7 +202,9 @@ static void put_line(const char *base, const struct corner *const *corners, size
 int main(int count, char **arguments)
 {
     enum { MOST_CORNERS = 256 };
-    const double most = count > 1 ? strtod(arguments[1], NULL) : 40;
+    const bool all = count > 1;
+    const double most = all ? strtod(arguments[1], NULL) : 40;
+    const size_t day = (size_t)time(NULL) / 86400;
     const bool pairs = count > 2 && strcmp(arguments[2], "pairs") == 0;
     const char *only = count > 3 ? arguments[3] : NULL;
     signal(SIGALRM, too_long);
@@ -223,7 +228,7 @@ int main(int count, char **arguments)
             made += corners_of(&gm_settings_parameters[i], most, corners + made);
         }
         const long before = opened;
-        for (size_t i = 0; i < made; i++) {
+        for (size_t i = all ? 0 : day % 3; i < made; i += all ? 1 : 3) {
             const struct corner *both[2] = {&corners[i]};
             put_line(bases[b], both, 1);
             try_schemes();
@@ -239,7 +244,7 @@ int main(int count, char **arguments)
             give_up("nothing could be opened at any corner");
         }
     }
-    printf("%ld lanes opened, of which %ld ended with a status; %ld refused with a sentence\n", opened,
-           failed, refused);
+    printf("day %zu: %ld lanes opened, of which %ld ended with a status; %ld refused with a sentence\n", day,
+           opened, failed, refused);
     return EXIT_SUCCESS;
 }
