@@ -15,6 +15,7 @@
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
@@ -51,6 +52,9 @@ static unsigned facets(const struct gm_problem *problem)
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
            (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->parts ? GM_NEEDS_PARTS : 0) |
+           (gm_part_is_given(problem, "kinetic") || gm_part_is_given(problem, "potential")
+                ? 0
+                : GM_NEEDS_UNNAMED) |
            (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) | (ode->degenerate ? GM_NEEDS_DEGENERATE : 0) |
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
