@@ -398,6 +398,8 @@ def certificates_are_not_passed_by_nothing():
              "conserves energy               BROKEN"),
             (("relaxed(explicit-euler; L; claims: keeps energy)", "--on", "kepler"), 0,
              "conserves energy               not measured"),
+            (("relaxed(implicit-euler; I1)",), 0, "measured nowhere: with every step the run fails before its end"),
+            (("relaxed(implicit-euler; I1)", "--on", "kepler"), 0, "with every step from 8 dt down the run fails before its end"),
             (("projected(rk4; H, L)", "--on", "kepler"), 0, "conserves energy               holds"),
             (("midpoint", "--on", "system", "H=p^2/2e-6 + 1e-6*q^4/4", "q=1", "p=1e-4", "dt=.1"), 0,
              "conserves quadratic invariants not measured"),

@@ -181,6 +181,7 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
 {
     struct gm_ladder ladder;
     const double order = gm_measure_order(subject, &ladder);
+    ladder.fails = ladder.fails && (!certificate->order_problem[0] || certificate->ladder.fails);
     const bool first = !certificate->order_problem[0] || isnan(certificate->order);
     if (first ||
         (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
@@ -642,7 +643,10 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     } else if (unclear) {
         certificate->order_reason = "the errors of shorter steps follow no power of dt";
     } else if (isnan(certificate->order)) {
-        certificate->order_reason = "no errors of steps from 8 dt down exceed round-off: take a longer dt";
+        certificate->order_reason =
+            certificate->ladder.fails
+                ? "with every step from 8 dt down the run fails before its end"
+                : "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     gm_certificate_withhold_all(certificate, UINT_MAX, "it means nothing of ordinary differential equations");
