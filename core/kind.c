@@ -54,6 +54,9 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
         return obstacle;
     }
     const struct gm_facet_words *words = words_of(problem->kind, lacking);
+    if (lacking && !words && scheme->by_names) {
+        return gm_scheme_lacks(scheme->by_names, problem);
+    }
     const char *alone =
         scheme->family->adaptive && problem->m > 1 ? "a single member, for its time is its own" : NULL;
     return words                             ? words->structure

@@ -268,8 +268,11 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
                  run->unsolved.change);
         snprintf(
             text, size,
-            "the step after t = %.6g found no way back to the value that %s has at the start: %s; take a shorter dt",
-            run->t, holding->names[farthest], change);
+            "the step after t = %.6g found no way back to the value that %s has at the start: %s; take %s",
+            run->t, holding->names[farthest], change,
+            run->scheme->family->adaptive && gm_holding_base(run->scheme)->order == 1
+                ? "a base of order 2 or more: with one of order 1 such a step near dt need not exist"
+                : "a shorter dt");
         return;
     }
     if (run->unsolved.obstacle == GM_STILL_LARGE) {

@@ -190,8 +190,9 @@ enum gm_ode_facet {
     GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
     GM_NEEDS_JACOBIAN = 1u << 22,   /* the matrix of derivatives of the field is written out */
     GM_NEEDS_MAGNETIC = 1u << 23,
-    GM_NEEDS_PARTS = 1u << 24,  /* parts with names */
-    GM_NEEDS_KEPLER = 1u << 26, /* a Kepler split, or gravity: parts kepler and interaction */
+    GM_NEEDS_PARTS = 1u << 24,   /* parts with names */
+    GM_NEEDS_UNNAMED = 1u << 25, /* no part of the system's own that is named kinetic or potential */
+    GM_NEEDS_KEPLER = 1u << 26,  /* a Kepler split, or gravity: parts kepler and interaction */
     GM_NEEDS_DEGENERATE = 1u << 27,
 };
 struct gm_ode {

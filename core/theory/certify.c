@@ -386,8 +386,12 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
         const bool open = scheme->word && verdict->claimed && !verdict->measured && !verdict->undecided;
         certificate.claims[bit].reason = open ? reason : NULL;
     }
-    certificate.order_reason = untried ? reason : certificate.order_reason;
-    certificate.order_holds = certificate.order_holds || untried;
+    const bool fails = scheme->word && certificate.ladder.fails; /* an order is not refuted by no errors */
+    certificate.order_reason =
+        untried ? reason
+        : fails ? "with every step the run fails before its end: name a system, --on SYSTEM"
+                : certificate.order_reason;
+    certificate.order_holds = certificate.order_holds || untried || fails;
     conclude(&certificate);
     return certificate;
 }

@@ -49,6 +49,7 @@ struct gm_ladder {
     size_t count; /* entries; 0: the order has another source */
     /* two octaves of dt give the same; else an order below the theoretical one refutes nothing */
     bool settled;
+    bool fails; /* no run reached its end, at any step */
 };
 
 /* A scheme that makes the same steps on some problems: the largest difference that was seen, as a part of the

@@ -441,9 +441,12 @@ static bool add_line(const struct surroundings *around, const char *text, double
     const double air = 0.3 * line; /* distance to the edge of the surface */
     const double left =
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
-    const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
-                               fmax(0.0, fmin(y, metrics->height - line)), width, line};
-    return is_free(around->axes, around->count, around->own, &box, air) &&
+    const double inside = fmax(data->x + air, fmin(left, data->x + data->width - width));
+    const struct gm_box box = {within ? inside : left, fmax(0.0, fmin(y, metrics->height - line)), width,
+                               line};
+    const bool on_axis = around->axes[around->own].panel->axes && !mark->fixed &&
+                         box.x < data->x + air; /* its line stands at the left of the frame */
+    return !on_axis && is_free(around->axes, around->count, around->own, &box, air) &&
            gm_labels_add(list, (struct gm_label){text, GM_TEXT_TICK, mark->style.role, box.x, box.y,
                                                  .among_marks = true});
 }
@@ -471,7 +474,7 @@ static void add_note(const struct surroundings *around, const char *const *lines
     for (size_t k = 0; k < tries && !placed; k++) {
         double top = y - 0.5 * high + shifts[k / 2] * line;
         if (!mark->fixed && high <= data->height) {
-            const double below = 0.2 * line; /* the foot of a line of letters is empty */
+            const double below = k < 2 ? 0.0 : 0.2 * line; /* at need letters may stand on the axis */
             top = fmax(data->y, fmin(top, data->y + data->height - high + below));
         }
         list->count = before;

@@ -172,6 +172,8 @@ for e, word in ((0, "projected(rk4; H, L; symmetric: yes)"), (1e-6, "projected(m
           f"{word} at eccentricity {e}: {got}")
 got = run("run", "kepler", "scheme=projected(rk4; H; symmetric: yes)", "dt=3", "--json")
 check(got.returncode == 2 and json.loads(got.stdout)["status"] == "no-convergence", f"a step too long: {got.stdout}")
+got = run("run", "kepler", "scheme=relaxed(implicit-euler; H)", "dt=1e-3")  # gamma tends to 2
+check(got.returncode == 2 and "take a base of order 2 or more" in got.stdout, f"relaxed with order 1: {got.stdout}")
 
 for word, said in (("projected(rk4; L, angular_momentum)", "angular_momentum is L"),
                    ("projected(rk4; X)", "an invariant X (there are H, angular_momentum, and those that list --invariants finds: I1, I2")):

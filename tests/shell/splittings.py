@@ -362,7 +362,8 @@ def names_mean_parts_of_the_system():
     system = ("system", "H=p^2/2 + q^2/2 - q^4/9", "q=1", "p=0", "dt=.5", "until=2")
     named, lettered = (system + (f"part={a} = p^2/2 + q^2/2, {b} = -q^4/9",)
                        for a, b in (("kinetic", "potential"), ("A", "B")))
-    for scheme in "strang({}, {})", "lie({1}, {0})", "composition(strang({}, {}), lie({}, {}); 1/2, 1/2)":
+    for scheme in ("strang({}, {})", "lie({1}, {0})", "composition(strang({}, {}), lie({}, {}); 1/2, 1/2)", "adjoint(lie({}, {}))",
+                   "projected(adjoint(composition(lie({}, {}), strang({}, {}); 1/2, 1/2)); H)"):
         def place(a, b):
             return scheme.format(a, b, a, b)
         off = distance(state(*named, "scheme=" + place("kinetic", "potential")),
@@ -370,6 +371,18 @@ def names_mean_parts_of_the_system():
         check(off == 0, f"{scheme} of parts named kinetic and potential is off by {off}")
     own = distance(state(*lettered, "scheme=strang(kinetic, potential)"), state(*lettered, "scheme=verlet-position"))
     check(own == 0, f"the program's kinetic and potential are off by {own}")
+    for word, row in ("adjoint(lie(kinetic, potential))", "symplectic-euler"), ("projected(strang(potential, kinetic); H)", "projected(verlet; H)"):
+        own = distance(state(*lettered, "scheme=" + word), state(*lettered, "scheme=" + row))
+        check(own == 0, f"{word} is off {row} by {own}")
+
+
+def an_adjoint_has_the_properties_of_its_base():
+    for base, family in ("aba864(kinetic, potential)", "splitting"), ("aba864(kepler, interaction)", "splitting by parts"), \
+            ("composition(lie(kinetic, potential), rk4; 1/2, 1/2)", "composition"):
+        told = [json.loads(certify(word, "--on", "outer-planets", "--json")[1]) for word in (base, f"adjoint({base})")]
+        claims = [{key for key, value in one["properties"].items() if value["claimed"]} for one in told]
+        check(all(one["family"] == family and one["holds"] for one in told) and told[0]["order"] == told[1]["order"] and
+              claims[0] == claims[1], f"adjoint({base}): {told}")
 
 
 HIDDEN = ("system", "rate=x = y*z", "rate=y = -2*x*z", "rate=z = x*y", "x=1", "y=.5", "z=.3", "dt=.1")
@@ -385,6 +398,8 @@ def certificates_are_not_passed_by_nothing():
              "conserves energy               BROKEN"),
             (("relaxed(explicit-euler; L; claims: keeps energy)", "--on", "kepler"), 0,
              "conserves energy               not measured"),
+            (("relaxed(implicit-euler; I1)",), 0, "measured nowhere: with every step the run fails before its end"),
+            (("relaxed(implicit-euler; I1)", "--on", "kepler"), 0, "with every step from 8 dt down the run fails before its end"),
             (("projected(rk4; H, L)", "--on", "kepler"), 0, "conserves energy               holds"),
             (("midpoint", "--on", "system", "H=p^2/2e-6 + 1e-6*q^4/4", "q=1", "p=1e-4", "dt=.1"), 0,
              "conserves quadratic invariants not measured"),
@@ -548,6 +563,7 @@ def main():
         faults_are_told(one.name)
     parts_are_typed()
     names_mean_parts_of_the_system()
+    an_adjoint_has_the_properties_of_its_base()
     certificates_are_not_passed_by_nothing()
     false_orders_are_refuted()
     best_adds_schemes_of_the_order_or_says_so()

@@ -594,7 +594,7 @@ static void texts_among_marks_part(void **state)
     gm_picture_close(picture);
 }
 
-/* Where a text among the marks has no room it goes on below or is left out; it never stands across the axis
+/* Where a text among the marks has no room it goes on below or is left out; it keeps a distance from the axis
    to its left, and half of it is never shown. */
 static void notes_stay_in_their_frame(void **state)
 {
@@ -616,7 +616,7 @@ static void notes_stay_in_their_frame(void **state)
             const struct gm_label *label = &layout->labels[i];
             if (label->among_marks) {
                 shown++;
-                assert_true(label->x >= layout->frames[0].box.x - 1e-9);
+                assert_true(label->x >= layout->frames[0].box.x + 0.25 * metrics.line[GM_TEXT_TICK]);
                 parts[0] = parts[0] || strstr(label->text, first) != NULL;
                 parts[1] = parts[1] || strstr(label->text, second) != NULL;
             }
@@ -626,6 +626,24 @@ static void notes_stay_in_their_frame(void **state)
         gm_picture_close(picture);
     }
     assert_true(lines[0] > 0 && lines[1] > 0 && lines[2] > 0);
+}
+
+/* A name left of a point near the axis moves off the axis; letters stand above the axis below them. */
+static void names_keep_off_the_axes(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    struct gm_picture *picture = picture_of(1, 0, true, false);
+    gm_mark_text(picture, picture->first, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, -1.9, -1.49,
+                 GM_ANCHOR_RIGHT, "SABA 4");
+    check_layout(picture, &metrics);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    const struct gm_label *name = find_label(layout, "SABA 4");
+    const struct gm_box *box = &layout->frames[0].box;
+    assert_non_null(name);
+    assert_true(name->x >= box->x + 0.25 * metrics.line[GM_TEXT_TICK]);
+    assert_true(name->y + metrics.line[GM_TEXT_TICK] <= box->y + box->height + 1e-9);
+    gm_picture_close(picture);
 }
 
 /* A colour bar ends in a point where values lie beyond it. */
@@ -668,6 +686,7 @@ int main(void)
         cmocka_unit_test(titles_are_told_apart),
         cmocka_unit_test(titles_go_on_below),
         cmocka_unit_test(texts_among_marks_part),
+        cmocka_unit_test(names_keep_off_the_axes),
         cmocka_unit_test(bars_point_at_what_is_beyond),
         cmocka_unit_test(notes_stay_in_their_frame),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),

@@ -101,7 +101,9 @@ static void print_certificate(const struct gm_certificate *certificate)
         } else if (reason) {
             printf(" %s", reason);
         } else if (measure->undecided) {
-            printf(" no step, however short, separates it from round-off (%s)", measure->problem);
+            printf(certificate->ladder.fails ? " the run fails before its end (%s)"
+                                             : " no step, however short, separates it from round-off (%s)",
+                   measure->problem);
         }
         printf("%s\n", refuted ? "; refuted by theory" : "");
     }
@@ -310,7 +312,8 @@ static bool tell(void *self, size_t index, size_t slot)
     }
     show(all->options, &all->certificates[slot], NULL);
     all->told++;
-    all->empty += all->schemes[index]->word && !all->certificates[slot].order_problem[0];
+    const struct gm_certificate *certificate = &all->certificates[slot];
+    all->empty += all->schemes[index]->word && (!certificate->order_problem[0] || certificate->ladder.fails);
     all->broken += all->certificates[slot].holds ? 0 : 1;
     if (all->told < all->count) {
         fflush(stdout);

@@ -342,7 +342,7 @@ static struct place name_place(const struct names *names, const struct drawn *ow
 {
     const struct gm_panel *panel = names->panel;
     /* a letter, and a line of text, in a picture of usual size */
-    const double wide = 0.0135 * (double)letters, tall = 0.042, aside = 0.012;
+    const double wide = 0.0165 * (double)letters, tall = 0.042, aside = 0.012;
     enum { SIDES = 16 };
     struct place best = {0};
     double least = INFINITY;
@@ -356,7 +356,8 @@ static struct place name_place(const struct names *names, const struct drawn *ow
             const struct place place = {left, low, left + wide, low + tall};
             /* later points are lower, and lines separate there */
             double cost = 0.2 * (double)side + 0.5 * (double)(own->count - k) / (double)own->count;
-            cost += place.left < 0 || place.right > 1 ? 400 : 0; /* what begins outside is not drawn */
+            cost +=
+                place.left < 0.5 * aside || place.right > 1 ? 400 : 0; /* what begins outside is not drawn */
             cost += place.low < 0 || place.high > 1.02 ? 40 : 0;
             for (size_t i = 0; i < names->taken_count; i++) {
                 const struct place *taken = &names->taken[i];

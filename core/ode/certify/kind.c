@@ -15,6 +15,7 @@
 #include "core/ode/families/composition.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/invariants/held.h"
+#include "core/ode/families/splitting/splitting.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/action.h"
@@ -51,6 +52,9 @@ static unsigned facets(const struct gm_problem *problem)
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
            (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0) | (ode->parts ? GM_NEEDS_PARTS : 0) |
+           (gm_part_is_given(problem, "kinetic") || gm_part_is_given(problem, "potential")
+                ? 0
+                : GM_NEEDS_UNNAMED) |
            (ode->magnetic ? GM_NEEDS_MAGNETIC : 0) | (ode->degenerate ? GM_NEEDS_DEGENERATE : 0) |
            (ode->loops[GM_ISA_BASELINE]->jacobian ? GM_NEEDS_JACOBIAN : 0);
 }
@@ -177,6 +181,7 @@ static void measure_order(struct gm_certificate *certificate, const struct gm_su
 {
     struct gm_ladder ladder;
     const double order = gm_measure_order(subject, &ladder);
+    ladder.fails = ladder.fails && (!certificate->order_problem[0] || certificate->ladder.fails);
     const bool first = !certificate->order_problem[0] || isnan(certificate->order);
     if (first ||
         (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
@@ -638,7 +643,10 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     } else if (unclear) {
         certificate->order_reason = "the errors of shorter steps follow no power of dt";
     } else if (isnan(certificate->order)) {
-        certificate->order_reason = "no errors of steps from 8 dt down exceed round-off: take a longer dt";
+        certificate->order_reason =
+            certificate->ladder.fails
+                ? "with every step from 8 dt down the run fails before its end"
+                : "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
     gm_certificate_withhold_all(certificate, UINT_MAX, "it means nothing of ordinary differential equations");

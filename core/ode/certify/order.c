@@ -69,7 +69,7 @@ static bool solve_at_times(const struct gm_subject *subject, double until,
 }
 
 struct trial {
-    double error; /* NaN: the run failed */
+    double error; /* infinite: the run failed; NaN: out of memory */
     double step;  /* mean length of a scheme's own steps by a tolerance */
 };
 
@@ -85,12 +85,12 @@ static struct trial make_trial(const struct gm_subject *subject, const struct gm
         gm_run_advance(run, steps_between);
         sum += gm_distance(gm_run_state(run), exact[k], subject->problem.n);
     }
-    const struct trial trial = {run->status == GM_OK ? sum : NAN, run->t / (double)run->own_steps};
+    const struct trial trial = {run->status == GM_OK ? sum : INFINITY, run->t / (double)run->own_steps};
     gm_run_close(run);
     return trial;
 }
 
-/* Returns the error of an adaptive scheme against the solution at the time that it reached. */
+/* Returns the error of an adaptive scheme against the solution at the time that it reached; infinite: the run failed. */
 static double error_at_own_time(const struct gm_subject *subject, const struct gm_settings *settings,
                                 double dt, double until)
 {
@@ -100,7 +100,9 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
     }
     double exact[GM_SUBJECT_COMPONENTS], error = NAN;
     memcpy(exact, subject->start, subject->problem.n * sizeof *exact);
-    if (gm_run_until(run, until) == GM_OK && solve_by_gsl(&subject->problem, run->t, exact)) {
+    if (gm_run_until(run, until) != GM_OK) {
+        error = INFINITY;
+    } else if (solve_by_gsl(&subject->problem, run->t, exact)) {
         error = gm_distance(gm_run_state(run), exact, subject->problem.n);
     }
     gm_run_close(run);
@@ -171,6 +173,7 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
     double x[GM_LADDER], e[GM_LADDER];
     int count = 0;
     int64_t between = 0;
+    ladder->fails = true;
     /* the highest orders exceed round-off at large steps only */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const int64_t before = between;
@@ -183,6 +186,7 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
         const struct gm_settings settings = gm_subject_settings(dt);
         const double error = adaptive ? error_at_own_time(subject, &settings, dt, until)
                                       : make_trial(subject, &settings, dt, between, exact).error;
+        ladder->fails = ladder->fails && isinf(error);
         if (error < plateau) {
             break;
         }

@@ -37,7 +37,6 @@ struct own {
     struct gm_coefficients exact;
     void *coefficients;
     struct gm_arena *arena; /* the opened scheme's: owns all its parts */
-    struct own *by_names;   /* of drifts and kicks: the splitting into parts of these names; NULL: none */
 };
 
 /* The schemes that a line names. */
@@ -54,6 +53,8 @@ struct making {
     const struct gm_written_scheme *written; /* the part of the text that is made at this depth */
     struct named schemes[GM_SCHEME_WORDS];   /* that its lines name */
     int depth;
+    bool by_names;    /* kinetic and potential are parts of the system's own, not its drift and its kick */
+    bool *names_both; /* set if the two names are those of the drift and the kick */
     struct gm_coefficients *moved; /* of the whole scheme, each with one decimal moved */
     int moved_count;
     struct own *made; /* the whole scheme */
@@ -461,17 +462,15 @@ static struct own *make_parts(const struct making *making)
             add_piece(&pieces, (enum gm_piece)k, number_of(1));
         }
     }
-    /* inside another scheme the names alone decide, for its steps do not name parts */
     const bool turned = row.parts == 2 && strcmp(row.list[0].name, "potential") == 0;
-    if (making->depth == 1 && row.parts == 2 && row.corrector == 0 && !row.list[0].by && !row.list[1].by &&
+    if (!making->by_names && row.parts == 2 && row.corrector == 0 && !row.list[0].by && !row.list[1].by &&
         strcmp(row.list[turned].name, "kinetic") == 0 && strcmp(row.list[!turned].name, "potential") == 0) {
         struct pieces drifts = pieces;
         for (int i = 0; i < pieces.count; i++) {
             drifts.at[i].piece = (pieces.at[i].piece == GM_KICK) != turned ? GM_KICK : GM_DRIFT;
         }
-        struct own *self = of_pieces(making, &drifts, 0, NULL);
-        self->by_names = of_pieces(making, &pieces, 0, &row);
-        return self;
+        *making->names_both = true;
+        return of_pieces(making, &drifts, GM_NEEDS_UNNAMED, NULL);
     }
     return of_pieces(making, &pieces, 0, &row);
 }
@@ -1153,6 +1152,11 @@ static void finish(const struct making *making, struct own *self, const char *na
     if (called) {
         row->claims = claims_of_called(called, parts_of(row));
     }
+    if (written->kind == GM_WRITTEN_ADJOINT) { /* what a map preserves, its inverse does, too */
+        const struct gm_scheme *base = first_of(making, GM_SCHEME_WORD_BASE);
+        row->order = written->order > 0 ? written->order : base->order;
+        row->claims = base->claims;
+    }
     if (claims->said) {
         read_claims(making, claims, &row->claims);
     }
@@ -1199,10 +1203,6 @@ static struct own *make(const struct making *outer, struct gm_span span, const c
     }
     struct own *own = makers[written->kind](&making);
     finish(&making, own, name, title);
-    if (own->by_names) {
-        finish(&making, own->by_names, name, title);
-        own->row.by_names = &own->by_names->row;
-    }
     return own;
 }
 
@@ -1244,11 +1244,18 @@ static void make_whole(struct gm_arena *arena, void *data)
 {
     struct making *making = data;
     const struct gm_user_scheme_source *source = making->source;
+    const struct gm_span whole = {0, source->length};
+    bool names_both = false;
     making->arena = arena;
+    making->names_both = &names_both;
     if (!source->decimals) {
         open_moved(making);
     }
-    making->made = make(making, (struct gm_span){0, source->length}, source->name, source->title);
+    making->made = make(making, whole, source->name, source->title);
+    if (names_both && !source->decimals) {
+        making->by_names = true;
+        making->made->row.by_names = &make(making, whole, source->name, source->title)->row;
+    }
     making->made->arena = arena;
 }
 

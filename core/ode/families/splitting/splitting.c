@@ -100,24 +100,12 @@ bool gm_part_is_given(const struct gm_problem *problem, const char *name)
     return given;
 }
 
-/* The names of a word mean the system's own parts, if it has them. */
-static const char *lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
-{
-    const struct gm_scheme *other = scheme->by_names;
-    if (!other || (!gm_part_is_given(problem, "kinetic") && !gm_part_is_given(problem, "potential"))) {
-        return NULL;
-    }
-    const char *lack = other->family->lacks(other, problem);
-    return lack ? lack : "parts that the system does not name itself";
-}
-
 const struct gm_family gm_family_splitting = {
     .over_kernels = GM_OVER_SPLITTING,
     .coefficients_open = coefficients_open,
     .title = "splitting",
     GM_ROWS(splitting),
     .parameters = gm_settings_of_sums,
-    .lacks = lacks,
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = gm_workspace_close,
