@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/basics.h"
+
 /* ---- the zero along a step ---- */
 
 /* A fraction of the step, and its value. */
@@ -34,40 +36,30 @@ double gm_zero_beyond(double (*value)(void *data, double s), void *data, double 
     const double tolerance = 2.2e-16;
     struct place other = {low, at_low}, newest = {1, at_end}, third = other;
     const bool below = at_end < 0;
-    bool failed = isnan(at_low) || isnan(at_end) || (at_low < 0) == below;
+    if (isnan(at_low) || isnan(at_end) || (at_low < 0) == below) {
+        return NAN;
+    }
     double t = 0.5;
-    for (int i = 0; i < MOST && !failed && fabs(newest.s - other.s) > 2 * tolerance; i++) {
+    for (int i = 0; i < MOST && fabs(newest.s - other.s) > 2 * tolerance; i++) {
         const double s = newest.s + t * (other.s - newest.s);
         const struct place next = {s, value(data, s)};
-        failed = isnan(next.value);
-        if ((next.value < 0) == (newest.value < 0)) {
-            third = newest;
-        } else {
-            third = other;
-            other = newest;
+        if (isnan(next.value)) {
+            return NAN;
         }
+        const bool same = (next.value < 0) == (newest.value < 0);
+        third = same ? newest : other;
+        other = same ? other : newest;
         newest = next;
         const double least = tolerance / fabs(other.s - newest.s);
         t = fmin(fmax(next_share(newest, other, third), least), 1 - least);
     }
-    return failed ? NAN : (newest.value < 0) == below ? newest.s : other.s;
+    return (newest.value < 0) == below ? newest.s : other.s;
 }
 
 /* ---- the memory ---- */
 
 /* Signs are first; then counts, the jumps of quantities, and the last event's time with the number of short intervals. */
 enum { LAST, SHORT, BEHIND };
-
-static size_t counts_at(const struct gm_problem *problem)
-{
-    return problem->events->count;
-}
-
-/* The number of the first switch. */
-static size_t first_switch(const struct gm_problem *problem)
-{
-    return problem->events->written;
-}
 
 /* Returns true if a switch is a break of this run. */
 static bool is_break(const struct gm_event_step *step, size_t event)
@@ -85,37 +77,28 @@ static bool is_watched(const struct gm_event_step *step, size_t event)
 
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory)
 {
-    return memory + first_switch(problem);
-}
-
-static size_t booked_at(const struct gm_problem *problem)
-{
-    return 2 * problem->events->count;
-}
-
-static size_t history_at(const struct gm_problem *problem)
-{
-    return booked_at(problem) + problem->events->quantities;
+    return memory + problem->events->written;
 }
 
 size_t gm_events_memory(const struct gm_problem *problem)
 {
-    return problem->events ? history_at(problem) + BEHIND : 0;
+    return problem->events ? 2 * problem->events->count + problem->events->quantities + BEHIND : 0;
 }
 
 double gm_events_happened(const struct gm_problem *problem, const double *memory, size_t event)
 {
-    const double *counts = memory + counts_at(problem);
+    const struct gm_events *events = problem->events;
+    const double *counts = memory + events->count;
     double sum = 0;
-    for (size_t i = 0; i < first_switch(problem); i++) {
-        sum += problem->events->ends[i] ? 0 : counts[i];
+    for (size_t i = 0; i < events->written; i++) {
+        sum += events->ends[i] ? 0 : counts[i];
     }
-    return event < problem->events->count ? counts[event] : sum;
+    return event < events->count ? counts[event] : sum;
 }
 
 double gm_events_booked(const struct gm_problem *problem, const double *memory, size_t quantity)
 {
-    return memory[booked_at(problem) + quantity];
+    return memory[2 * problem->events->count + quantity];
 }
 
 /* Copies the last member's state, and the time. */
@@ -150,59 +133,89 @@ static enum gm_event_form form_of(const struct gm_event_step *step, size_t event
     return step->problem->events->forms[event];
 }
 
-static bool is_whole(const struct gm_event_step *step, size_t event)
-{
-    return form_of(step, event) == GM_AT_WHOLE;
-}
-
 /* The value whose sign changes, from that of g. Whole numbers of g are zeros of (g - k)(k + 1 - g), which is above 0 until
    g leaves its interval at either end. A g that jumps to 0 is there. */
 static double watched_value(const struct gm_event_step *step, size_t event, double g)
 {
-    const double k = step->memory[event];
-    return is_whole(step, event)                ? (g == k + 1 ? -DBL_MIN : (g - k) * (k + 1 - g))
-           : form_of(step, event) == GM_AT_JUMP ? (k * g > 0 ? k : -k)
-                                                : g;
-}
-
-/* The mode after g, which is now this, has passed. */
-static double mode_beyond(const struct gm_event_step *step, size_t event, double g)
-{
     const double mode = step->memory[event];
-    return is_whole(step, event)                ? mode + (g - mode < 0.5 ? -1 : 1)
-           : form_of(step, event) == GM_AT_JUMP ? sign_of(g)
-                                                : -mode;
+    switch (form_of(step, event)) {
+    case GM_AT_WHOLE:
+        return g == mode + 1 ? -DBL_MIN : (g - mode) * (mode + 1 - g);
+    case GM_AT_JUMP:
+        return mode * g > 0 ? mode : -mode;
+    default:
+        return g;
+    }
 }
 
 /* The sign with which an event waits. */
 static double awaited(const struct gm_event_step *step, size_t event)
 {
-    return is_whole(step, event) ? 1 : step->memory[event];
+    return form_of(step, event) == GM_AT_WHOLE ? 1 : step->memory[event];
+}
+
+static bool crosses(double sign, double value)
+{
+    return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
+}
+
+/* Returns true if g, which is now this, has passed a place where the event happens. */
+static bool has_passed(const struct gm_event_step *step, size_t event, double g)
+{
+    return is_watched(step, event) && crosses(awaited(step, event), watched_value(step, event, g));
+}
+
+/* Sets the mode after g, which is now this, has passed. */
+static void turn(const struct gm_event_step *step, size_t event, double g)
+{
+    double *mode = &step->memory[event];
+    if (form_of(step, event) == GM_AT_WHOLE) {
+        *mode += g - *mode < 0.5 ? -1 : 1;
+    } else {
+        *mode = -*mode;
+    }
+}
+
+/* Sets the mode of a switch at g = 0 to the side that the motion does not leave at once. */
+static void choose_side(const struct gm_event_step *step, size_t event, const double *look)
+{
+    double *mode = &step->memory[event];
+    *mode = 1;
+    const double above = sign_of_rate(step, event, look);
+    *mode = -1;
+    const double below = sign_of_rate(step, event, look);
+    *mode = above > 0 || above * below < 0 ? 1 : fmin(below, 0);
+}
+
+/* Returns true if the motion leads back through a switch that g, which is now this, has passed. */
+static bool leads_back(const struct gm_event_step *step, size_t event, const double *look, double g)
+{
+    double away = step->memory[event];
+    if (form_of(step, event) == GM_AT_WHOLE) {
+        away = g - away < 0.5 ? 1 : -1;
+    }
+    return sign_of_rate(step, event, look) == -away;
 }
 
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
    the event waits for its return through g = 0, so that a ball without a rebound does not fall through the ground; a g that
-   jumped there first leaves it. At a switch it leads to a side that it does not leave at once. */
+   jumped there first leaves it. */
 static void wait_ahead(const struct gm_event_step *step, size_t event, const double *look, double g,
                        double nothing)
 {
-    double *memory = &step->memory[event];
-    if (is_whole(step, event)) {
-        *memory = floor(g);
-        *memory -= *memory == g && sign_of_rate(step, event, look) < 0;
+    double *mode = &step->memory[event];
+    if (form_of(step, event) == GM_AT_WHOLE) {
+        *mode = floor(g);
+        *mode -= *mode == g && sign_of_rate(step, event, look) < 0;
     } else if (fabs(g) > nothing) {
-        *memory = sign_of(g);
+        *mode = sign_of(g);
     } else if (form_of(step, event) == GM_AT_JUMP) {
-        *memory = 0;
-    } else if (event < first_switch(step->problem)) {
-        const double ahead = sign_of_rate(step, event, look);
-        *memory = ahead != 0 ? ahead : sign_of(*memory) * AT_REST;
+        *mode = 0;
+    } else if (event >= step->problem->events->written) {
+        choose_side(step, event, look);
     } else {
-        *memory = 1;
-        const double above = sign_of_rate(step, event, look);
-        *memory = -1;
-        const double below = sign_of_rate(step, event, look);
-        *memory = above > 0 || (above < 0 && below > 0) ? 1 : below < 0 ? -1 : 0;
+        const double ahead = sign_of_rate(step, event, look);
+        *mode = ahead != 0 ? ahead : sign_of(*mode) * AT_REST;
     }
 }
 
@@ -218,7 +231,7 @@ static void settle(const struct gm_event_step *step, const double *look, const d
 {
     /* where g is 0 the modes of all others are needed, and others need its own */
     for (int pass = 0; pass < 3; pass++) {
-        for (size_t i = first_switch(step->problem); i < step->problem->events->count; i++) {
+        for (size_t i = step->problem->events->written; i < step->problem->events->count; i++) {
             find_g(step, look, g);
             if (is_watched(step, i) && (g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {
                 wait_ahead(step, i, look, g[i], 0);
@@ -234,14 +247,9 @@ void gm_events_arm(struct gm_event_step *step)
     double *look = step->scratch, *g = look + problem->n + 1;
     look_at(problem, step->t, step->begin, look);
     settle(step, look, NULL, g);
-    for (size_t i = 0; i < first_switch(problem) && step->first; i++) {
+    for (size_t i = 0; i < problem->events->written && step->first; i++) {
         wait_ahead(step, i, look, g[i], 0);
     }
-}
-
-static bool crosses(double sign, double value)
-{
-    return fabs(sign) == AT_REST ? value * sign < 0 : sign != 0 && (value < 0) != (sign < 0) && !isnan(value);
 }
 
 bool gm_events_near(const struct gm_event_step *step)
@@ -251,8 +259,7 @@ bool gm_events_near(const struct gm_event_step *step)
     find_g(step, look, g);
     bool near = false;
     for (size_t i = 0; i < step->problem->events->count; i++) {
-        const double sign = awaited(step, i);
-        near |= is_watched(step, i) && (sign == 0 ? g[i] != 0 : crosses(sign, watched_value(step, i, g[i])));
+        near |= has_passed(step, i, g[i]) || (is_watched(step, i) && awaited(step, i) == 0 && g[i] != 0);
     }
     return near;
 }
@@ -263,12 +270,13 @@ bool gm_events_near(const struct gm_event_step *step)
 struct rest {
     struct gm_event_step *step;
     double t, rest;
-    double low, place; /* the fractions of `rest` up to which all is passed, and where g passes 0 next */
-    size_t event;
-    double *from, *to;                /* states with all that belongs to them; `to`: room for a trial */
-    double at;                        /* the time of `to` */
-    double *look, *before, *after;    /* looks */
+    double low, place;    /* the fractions of `rest` up to which all is passed, and where g passes 0 next */
+    size_t event;         /* whose place is looked for */
+    double *from, *to;    /* states with all that belongs to them; `to`: room for a trial */
+    double at;            /* the time of `to` */
+    double *look, *after; /* looks */
     double *at_low, *at_end, *values; /* g of all events, at both ends and anywhere */
+    double *new_values;               /* g of all events after a change */
     double *modes;                    /* of switches before what happens */
     double *sizes;                    /* of the g of all events, at both ends of the step */
     double *places;                   /* the fraction of `rest` where each g passes; NaN: it does not */
@@ -285,33 +293,25 @@ static void find_values(struct rest *rest, double t, const double *y, double *va
     find_g(rest->step, rest->look, values);
 }
 
-/* Writes the state after a fraction of the rest to rest->to. */
-static bool make_part(struct rest *rest, double s, bool counted)
+/* Writes the state after a fraction of the rest, and its time to rest->at. `counted`: the run takes this part. */
+static bool make_part(struct rest *rest, double s, double *to, bool counted)
 {
     struct gm_event_step *step = rest->step;
     if (s == 0) {
-        memcpy(rest->to, rest->from, step->size * sizeof *rest->to);
+        memcpy(to, rest->from, step->size * sizeof *to);
         rest->at = rest->t;
         return true;
     }
     step->parts = true;
-    rest->at = step->part(step->data, rest->from, rest->t, s * rest->rest, rest->to, counted);
+    rest->at = step->part(step->data, rest->from, rest->t, s * rest->rest, to, counted);
     return !isnan(rest->at);
-}
-
-/* Makes all of the rest, to the step's end. */
-static bool make_rest(struct rest *rest)
-{
-    struct gm_event_step *step = rest->step;
-    step->parts = true;
-    return !isnan(step->part(step->data, rest->from, rest->t, rest->rest, step->end, true));
 }
 
 /* The watched value of rest->event after a fraction of the rest; NaN if it cannot be made. */
 static double value_after(void *data, double s)
 {
     struct rest *rest = data;
-    if (!make_part(rest, s, false)) {
+    if (!make_part(rest, s, rest->to, false)) {
         return NAN;
     }
     find_values(rest, rest->at, rest->to, rest->values);
@@ -328,15 +328,17 @@ static double place_of(struct rest *rest, size_t event)
     double low = rest->low, value = at_low;
     rest->event = event;
     /* just after an event g is 0 up to round-off: the motion leaves that, and comes back */
-    for (double s = (1 - low) / 2; sign_of(value) != sign && s > least && !isnan(value); s /= 2) {
+    for (double s = (1 - low) / 2; sign_of(value) != sign && s > least; s /= 2) {
         value = value_after(rest, low = rest->low + s);
+        if (isnan(value)) {
+            return NAN;
+        }
     }
-    if (!isnan(value) && sign_of(value) != sign) {
-        low = rest->low;
-        value = at_low;
+    if (sign_of(value) == sign) {
+        return gm_zero_beyond(value_after, rest, low, value, at_end);
     }
-    const bool at_once = crosses(sign, value) || (fabs(waiting) == AT_REST && sign_of(value) != sign);
-    return at_once ? rest->low : gm_zero_beyond(value_after, rest, low, value, at_end);
+    const bool at_once = crosses(sign, at_low) || fabs(waiting) == AT_REST;
+    return at_once ? rest->low : gm_zero_beyond(value_after, rest, rest->low, at_low, at_end);
 }
 
 /* Gives switches without a side the one where the rest has led, and makes the rest on that side. Returns false if it
@@ -344,19 +346,17 @@ static double place_of(struct rest *rest, size_t event)
 static bool take_sides(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
-    bool taken = false, made = true;
     find_values(rest, step->end_time, step->end, rest->at_end);
-    for (size_t i = first_switch(step->problem); i < step->problem->events->count; i++) {
-        if (awaited(step, i) == 0 && sign_of(rest->at_end[i]) != 0) {
+    for (size_t i = step->problem->events->written; i < step->problem->events->count; i++) {
+        if (awaited(step, i) == 0 && rest->at_end[i] != 0) {
             step->memory[i] = sign_of(rest->at_end[i]);
-            made = made && (!is_break(step, i) || make_rest(rest));
-            taken = true;
+            if (is_break(step, i) && !make_part(rest, 1, step->end, true)) {
+                return false;
+            }
+            find_values(rest, step->end_time, step->end, rest->at_end);
         }
     }
-    if (taken) {
-        find_values(rest, step->end_time, step->end, rest->at_end);
-    }
-    return made;
+    return true;
 }
 
 /* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
@@ -372,7 +372,7 @@ static double first_place(struct rest *rest)
     double first = INFINITY;
     for (size_t i = 0; i < step->problem->events->count; i++) {
         rest->places[i] = NAN;
-        if (!is_watched(step, i) || !crosses(awaited(step, i), watched_value(step, i, rest->at_end[i]))) {
+        if (!has_passed(step, i, rest->at_end[i])) {
             continue;
         }
         const double place = place_of(rest, i);
@@ -385,7 +385,7 @@ static double first_place(struct rest *rest)
         rest->places[i] = place;
         first = fmin(first, place);
     }
-    for (size_t i = 0; i < first_switch(step->problem) && first > 1; i++) {
+    for (size_t i = 0; i < step->problem->events->written && first > 1; i++) {
         step->memory[i] = awaited(step, i) == 0 ? sign_of(rest->at_end[i]) : step->memory[i];
     }
     return first;
@@ -395,36 +395,12 @@ static double first_place(struct rest *rest)
 static void book(struct rest *rest)
 {
     const struct gm_problem *problem = rest->step->problem;
-    const struct gm_events *events = problem->events;
-    double *booked = rest->step->memory + booked_at(problem), *values = rest->values;
-    if (events->quantities == 0) {
-        return;
-    }
-    double *after = values + events->quantities;
-    events->conserved(problem, rest->before, values);
-    events->conserved(problem, rest->after, after);
-    for (size_t i = 0; i < events->quantities; i++) {
-        booked[i] += after[i] - values[i];
-    }
-}
-
-/* The sign with which g moves away from a switch at which it is. */
-static double away(const struct gm_event_step *step, size_t event, double g)
-{
-    return !is_whole(step, event) ? step->memory[event] : g - step->memory[event] < 0.5 ? 1 : -1;
-}
-
-/* Lets another event wait in the state after a change. A g that only jumps has now reached 0, or passed it: the event
-   happens at once, unless it has. One that is about to happen still does. */
-static void wait_after(struct rest *rest, size_t event, double g)
-{
-    const struct gm_event_step *step = rest->step;
-    double *cause = &rest->causes[event];
-    if (form_of(step, event) == GM_AT_JUMP && isnan(*cause) && is_watched(step, event) &&
-        crosses(awaited(step, event), watched_value(step, event, g))) {
-        *cause = (double)step->problem->events->count;
-    } else if (!(*cause >= 0)) {
-        wait_ahead(step, event, rest->after, g, 0);
+    const size_t quantities = problem->events->quantities;
+    double *booked = rest->step->memory + 2 * problem->events->count, *values = rest->values;
+    problem->events->conserved(problem, rest->look, values);
+    problem->events->conserved(problem, rest->after, values + quantities);
+    for (size_t i = 0; i < quantities; i++) {
+        booked[i] += values[quantities + i] - values[i];
     }
 }
 
@@ -437,77 +413,170 @@ static bool passes_here(const struct rest *rest, size_t event)
     return rest->places[event] <= rest->place + TOGETHER;
 }
 
-/* Lets an event change the state rest->to at t, or a break the motion. Returns GM_EVENTS_HAPPENED, GM_EVENTS_NO_VALUE, or
-   GM_EVENTS_FAILED if the scheme cannot start from there. */
-static enum gm_event_outcome change(struct rest *rest, double t, size_t event)
+/* Lets an event wait beyond g, which is now this, without happening. */
+static void pass_by(const struct rest *rest, size_t event, double g)
+{
+    const double nothing = NOTHING * rest->sizes[event];
+    if (passes_here(rest, event) && fabs(g) <= nothing && form_of(rest->step, event) != GM_AT_JUMP) {
+        turn(rest->step, event, g);
+    } else {
+        wait_ahead(rest->step, event, rest->look, g, nothing);
+    }
+}
+
+/* Returns true if an event happens in rest->to by what passes there: if its g passes 0, but at no pole; or if a switch in g
+   lets it jump to 0, or from 0 before it has passed. A g that only jumps also happens if it jumps past 0. */
+static bool is_caused(const struct rest *rest, size_t event)
+{
+    const struct gm_event_step *step = rest->step;
+    const double g = rest->values[event], after = rest->new_values[event], size = rest->sizes[event],
+                 nothing = NOTHING * fabs(after - g);
+    const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST;
+    if (!is_watched(step, event) || begins) {
+        return false;
+    }
+    if (form_of(step, event) == GM_AT_JUMP) {
+        return passes_here(rest, event) || (after != g && has_passed(step, event, after));
+    }
+    const bool pole = rest->place > 0 && (isinf(size) || fabs(g) > NOTHING * size),
+               leaves =
+                   fabs(g) <= nothing && sign_of_rate(step, event, rest->look) * awaited(step, event) < 0;
+    return (passes_here(rest, event) && !pole) || (after != g && (fabs(after) <= nothing || leaves));
+}
+
+/* Turns the switches that pass in rest->to, but breaks, and finds what they and breaks cause. Other events pass by. */
+static void find_causes(struct rest *rest)
+{
+    struct gm_event_step *step = rest->step;
+    const struct gm_events *events = step->problem->events;
+    const size_t switches = (events->count - events->written) * sizeof *rest->modes;
+    size_t turned = events->count;
+    find_values(rest, rest->at, rest->to, rest->values);
+    memcpy(rest->modes, step->memory + events->written, switches);
+    for (size_t i = events->written; i < events->count; i++) {
+        const bool passes = passes_here(rest, i);
+        rest->causes[i] = passes && is_break(step, i) ? (double)i : NAN;
+        if (passes) {
+            turn(step, i, rest->values[i]);
+            turned = i;
+        }
+    }
+    settle(step, rest->look, rest->values, rest->new_values);
+    for (size_t i = 0; i < events->written; i++) {
+        const bool passes = passes_here(rest, i);
+        rest->causes[i] = NAN;
+        if (is_caused(rest, i)) {
+            rest->causes[i] = (double)(passes ? i : turned);
+        } else if (passes || rest->new_values[i] != rest->values[i]) {
+            pass_by(rest, i, rest->new_values[i]);
+        }
+    }
+    memcpy(step->memory + events->written, rest->modes,
+           step->locates ? events->breaks * sizeof *rest->modes : 0);
+}
+
+/* Returns the next event that is caused, breaks first; `count`: none. */
+static size_t next_caused(const struct rest *rest)
+{
+    const struct gm_events *events = rest->step->problem->events;
+    size_t k = 0;
+    while (k < events->count && !(rest->causes[(events->written + k) % events->count] >= 0)) {
+        k++;
+    }
+    return k < events->count ? (events->written + k) % events->count : k;
+}
+
+/* Lets switches that pass in rest->to wait where they were, if an event has led the motion back. */
+static void turn_back(struct rest *rest)
+{
+    const struct gm_event_step *step = rest->step;
+    for (size_t i = step->problem->events->written; i < step->problem->events->count; i++) {
+        const double g = rest->values[i];
+        if (passes_here(rest, i) && leads_back(step, i, rest->after, g)) {
+            wait_ahead(step, i, rest->after, form_of(step, i) == GM_AT_WHOLE ? round(g) : 0, 0);
+        }
+    }
+}
+
+/* Follows g that have jumped at an event or a break: switches are settled, and not passed here; other events wait in the
+   state after an event. A g that only jumps has now reached 0 or passed it: the event happens at once, unless it has. One
+   that is about to happen still does. */
+static void wait_after(struct rest *rest, size_t event)
+{
+    const struct gm_event_step *step = rest->step;
+    const size_t written = step->problem->events->written, count = step->problem->events->count;
+    const double roundoff = 1e-12;
+    for (size_t i = 0; i < count; i++) {
+        const double g = rest->values[i], after = rest->new_values[i], size = rest->sizes[i];
+        double *cause = &rest->causes[i];
+        if (i == event && i < written) { /* a g that jumps is not 0 just beyond */
+            wait_ahead(step, i, rest->after, after, fmin(fabs(g), NOTHING * size) + roundoff * size);
+        } else if (i >= written && after != g) {
+            rest->places[i] = *cause = NAN;
+        } else if (event < written && after != g && !(*cause >= 0)) {
+            if (form_of(step, i) == GM_AT_JUMP && isnan(*cause) && has_passed(step, i, after)) {
+                *cause = (double)count;
+            } else {
+                wait_ahead(step, i, rest->after, after, 0);
+            }
+        }
+    }
+}
+
+/* Notes the event or break that the step has reached, with its g. */
+static void note(struct gm_event_step *step, size_t event, double g)
+{
+    step->turned = event;
+    step->turned_at = form_of(step, event) == GM_AT_WHOLE ? round(g) : 0;
+}
+
+/* Lets an event that is caused change the state rest->to, or a break the motion; rest->look and rest->values are of that
+   state. Returns GM_EVENTS_HAPPENED, GM_EVENTS_NO_VALUE, or GM_EVENTS_FAILED if the scheme cannot start from there. */
+static enum gm_event_outcome change(struct rest *rest, size_t event)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_problem *problem = step->problem;
     const struct gm_events *events = problem->events;
-    const double roundoff = 1e-12;
-    const bool turns = event >= first_switch(problem);
-    double *after = rest->values + events->count;
     const double *modes = gm_events_modes(problem, step->memory);
     struct gm_event_part part = {
-        event, (size_t)rest->causes[event], rest->modes, rest->look, rest->before, rest->after, NULL, NULL};
+        event, (size_t)rest->causes[event], rest->modes, rest->look, rest->after, NULL, NULL};
     rest->causes[event] = HAS_HAPPENED;
+    note(step, event, rest->values[event]);
     memcpy(rest->modes, modes, (events->count - events->written) * sizeof *modes);
-    find_values(rest, t, rest->to, rest->values);
-    memcpy(rest->before, rest->look, (problem->n + 1) * sizeof *rest->look);
-    if (turns) {
-        memcpy(rest->after, rest->before, (problem->n + 1) * sizeof *rest->look);
-        step->memory[event] = mode_beyond(step, event, rest->values[event]);
+    if (event >= events->written) {
+        turn(step, event, rest->values[event]);
     } else {
-        events->change(problem, event, rest->before, rest->to);
-        look_at(problem, t, rest->to, rest->after);
+        events->change(problem, event, rest->look, rest->to);
+    }
+    look_at(problem, rest->at, rest->to, rest->after);
+    if (event < events->written) {
         double nothing = 0; /* 0 times a value that is not finite is NaN */
         for (size_t c = 0; c < problem->n; c++) {
             nothing += 0 * rest->after[c];
         }
         if (isnan(nothing)) {
-            step->turned = event;
-            step->turned_at = t;
+            step->turned_at = rest->at;
             return GM_EVENTS_NO_VALUE;
         }
         memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
-        if (!step->restart(step->data, t, rest->to)) {
+        if (!step->restart(step->data, rest->at, rest->to)) {
             return GM_EVENTS_FAILED;
         }
+        turn_back(rest);
     }
-    step->memory[counts_at(problem) + event]++;
-    for (size_t i = events->written; i < events->count && !turns; i++) {
-        const double g = rest->values[i];
-        if (passes_here(rest, i) && sign_of_rate(step, i, rest->after) == -away(step, i, g)) {
-            wait_ahead(step, i, rest->after, is_whole(step, i) ? round(g) : 0, 0); /* turned back */
-        }
-    }
-    settle(step, rest->after, rest->values, after);
-    for (size_t i = 0; i < events->written && !turns; i++) {
-        /* a g that jumps is not 0 just beyond */
-        const double size = rest->sizes[i], g = rest->values[i];
-        if (i == event) {
-            wait_ahead(step, i, rest->after, after[i], fmin(fabs(g), NOTHING * size) + roundoff * size);
-        } else if (after[i] != g) {
-            wait_after(rest, i, after[i]);
-        }
-    }
-    /* g that jumped are settled, and not passed here */
-    for (size_t i = events->written; i < events->count; i++) {
-        const bool jumped = after[i] != rest->values[i];
-        rest->places[i] = jumped ? NAN : rest->places[i];
-        rest->causes[i] = jumped && rest->causes[i] >= 0 ? NAN : rest->causes[i];
-    }
+    step->memory[events->count + event]++;
+    settle(step, rest->after, rest->values, rest->new_values);
+    wait_after(rest, event);
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
-    look_at(problem, rest->t, rest->from, rest->look);
     if (part.ahead && part.beyond) {
         events->carry_within(problem, &part, rest->to);
-        look_at(problem, t, rest->to, rest->after);
+        look_at(problem, rest->at, rest->to, rest->after);
+        if (step->witness.see) {
+            step->witness.see(step->witness.data, &part);
+        }
     }
-    if (part.ahead && part.beyond && step->witness.see) {
-        step->witness.see(step->witness.data, &part);
-    }
-    if (!turns) {
+    if (event < events->written) {
         book(rest);
     }
     return GM_EVENTS_HAPPENED;
@@ -517,77 +586,11 @@ static enum gm_event_outcome change(struct rest *rest, double t, size_t event)
 static bool are_too_short(struct gm_event_step *step, double t)
 {
     enum { MOST_SHORT = 50 };
-    double *history = step->memory + history_at(step->problem);
+    double *history = step->memory + gm_events_memory(step->problem) - BEHIND;
     const double interval = fabs(t - history[LAST]);
     history[SHORT] = interval < 1e-9 * fabs(step->dt) ? history[SHORT] + 1 : 0;
     history[LAST] = t;
     return history[SHORT] >= MOST_SHORT;
-}
-
-static void note(struct gm_event_step *step, size_t event, double g)
-{
-    step->turned = event;
-    step->turned_at = is_whole(step, event) ? round(g) : 0;
-}
-
-/* Lets an event wait beyond g, which is now this, without happening. */
-static void pass_by(const struct rest *rest, size_t event, double g)
-{
-    const double nothing = NOTHING * rest->sizes[event];
-    if (rest->causes[event] == (double)event && fabs(g) <= nothing) {
-        rest->step->memory[event] = mode_beyond(rest->step, event, g);
-    } else {
-        wait_ahead(rest->step, event, rest->look, g, nothing);
-    }
-}
-
-/* Turns the switches that pass in rest->to, and finds the causes of what happens there: breaks; events whose g passes 0,
-   or jumps to 0, or from 0 before it has passed, or past 0 if it only jumps. Other events pass by. Returns false if nothing
-   happens; else breaks are not turned yet. */
-static bool find_causes(struct rest *rest)
-{
-    struct gm_event_step *step = rest->step;
-    const struct gm_events *events = step->problem->events;
-    double *after = rest->values + events->count;
-    const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST;
-    size_t turned = SIZE_MAX;
-    bool some = false;
-    find_values(rest, rest->at, rest->to, rest->values);
-    memcpy(rest->modes, step->memory + events->written, (events->count - events->written) * sizeof *after);
-    for (size_t i = events->written; i < events->count; i++) {
-        const bool passes = passes_here(rest, i), breaks = passes && is_break(step, i);
-        rest->causes[i] = breaks ? (double)i : NAN;
-        step->memory[i] = passes ? mode_beyond(step, i, rest->values[i]) : step->memory[i];
-        turned = passes ? i : turned;
-        some |= breaks;
-    }
-    settle(step, rest->look, rest->values, after);
-    for (size_t i = 0; i < events->written; i++) {
-        const double g = rest->values[i], size = rest->sizes[i], nothing = NOTHING * fabs(after[i] - g);
-        const bool only = form_of(step, i) == GM_AT_JUMP, passes = passes_here(rest, i),
-                   jumps = after[i] != g,
-                   pole = !only && rest->place > 0 && (isinf(size) || fabs(g) > NOTHING * size),
-                   leaps = jumps && (only ? crosses(awaited(step, i), watched_value(step, i, after[i]))
-                                          : fabs(after[i]) <= nothing ||
-                                                (fabs(g) <= nothing &&
-                                                 sign_of_rate(step, i, rest->look) * awaited(step, i) < 0)),
-                   happens = is_watched(step, i) && !begins && ((passes && !pole) || leaps);
-        rest->causes[i] = passes ? (double)i : happens ? (double)turned : NAN;
-        some |= happens && events->change(step->problem, i, rest->look, NULL);
-        if (!happens && (passes || jumps)) {
-            pass_by(rest, i, after[i]);
-            rest->causes[i] = NAN;
-        }
-    }
-    for (size_t i = 0; i < events->written && !some; i++) {
-        if (!isnan(rest->causes[i])) {
-            pass_by(rest, i, after[i]);
-        }
-    }
-    for (size_t i = events->written; i < events->count && some; i++) {
-        step->memory[i] = is_break(step, i) ? rest->modes[i - events->written] : step->memory[i];
-    }
-    return some;
 }
 
 /* Passes what is at rest->place: makes the rest up to it, and the changes there. GM_EVENTS_NONE: nothing happens. */
@@ -596,69 +599,52 @@ static enum gm_event_outcome pass_first(struct rest *rest)
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
     const double begin = rest->t;
-    size_t made = 0;
-    bool many = false;
-    if (!make_part(rest, rest->place, false)) {
+    enum gm_event_outcome outcome = GM_EVENTS_NONE;
+    bool changes = false;
+    if (!make_part(rest, rest->place, rest->to, false)) {
         return GM_EVENTS_FAILED;
     }
-    const double t = step->reached = rest->at;
+    step->reached = rest->at;
     for (size_t i = events->count; i-- > 0 && rest->place == 0 && !(step->first && begin == step->t);) {
-        if (rest->places[i] == 0 && (i < events->written || is_break(step, i))) {
-            note(step, i < events->written ? SIZE_MAX : i, rest->at_low[i]);
-            return i < events->written ? GM_EVENTS_MANY : GM_EVENTS_SLIDE; /* back on g = 0 */
+        if (rest->places[i] == 0 && (i < events->written || is_break(step, i))) { /* back on g = 0 */
+            note(step, i, rest->at_low[i]);
+            return i < events->written ? GM_EVENTS_MANY : GM_EVENTS_SLIDE;
         }
     }
-    if (!find_causes(rest)) {
-        rest->low = rest->place;
-        find_values(rest, t, rest->to, rest->at_low);
-        note(step, 0, 0);
-        return GM_EVENTS_NONE;
-    }
-    if (!make_part(rest, rest->place, true)) {
-        return GM_EVENTS_FAILED;
-    }
-    for (size_t k = 0; k < events->count; k++) { /* breaks first */
-        const size_t i = (events->written + k) % events->count;
-        if (!(rest->causes[i] >= 0)) {
-            continue;
-        }
-        find_values(rest, t, rest->to, rest->values);
-        if (i < events->written && !events->change(step->problem, i, rest->look, NULL)) {
+    find_causes(rest);
+    for (size_t i; (i = next_caused(rest)) < events->count;) {
+        const bool written = i < events->written;
+        find_values(rest, rest->at, rest->to, rest->values);
+        if (written && !events->change(step->problem, i, rest->look, NULL)) {
             pass_by(rest, i, rest->values[i]);
             rest->causes[i] = HAS_HAPPENED;
             continue;
         }
-        if (i < events->written && events->ends[i]) {
-            step->memory[counts_at(step->problem) + i]++;
+        if (outcome == GM_EVENTS_NONE && !make_part(rest, rest->place, rest->to, true)) {
+            return GM_EVENTS_FAILED;
+        }
+        if (written && events->ends[i]) {
+            step->memory[events->count + i]++;
             return GM_EVENTS_ENDED;
         }
-        if (i < events->written && made++ == 0) {
-            many = are_too_short(step, t);
-        }
-        note(step, i, rest->values[i]);
-        const enum gm_event_outcome outcome = change(rest, t, i);
+        outcome = change(rest, i);
         if (outcome != GM_EVENTS_HAPPENED) {
             return outcome;
         }
         memcpy(rest->from, rest->to, step->size * sizeof *rest->from);
-        rest->t = t;
-        k = i < events->written ? events->count - events->written - 1
-                                : k; /* its change may call any other event */
+        rest->t = rest->at;
+        changes |= written;
     }
-    rest->low = 0;
-    find_values(rest, t, rest->from, rest->at_low);
-    for (size_t i = events->written; i < events->count; i++) {
-        const double sign = away(step, i, rest->at_low[i]);
-        if (is_break(step, i) && passes_here(rest, i) && sign_of_rate(step, i, rest->look) == -sign) {
-            step->reached = rest->place <= TOGETHER ? begin : t;
+    rest->low = outcome == GM_EVENTS_NONE ? rest->place : 0;
+    find_values(rest, rest->at, rest->to, rest->at_low);
+    for (size_t i = events->written; i < events->count && outcome != GM_EVENTS_NONE; i++) {
+        if (is_break(step, i) && passes_here(rest, i) && leads_back(step, i, rest->look, rest->at_low[i])) {
+            step->reached = rest->place <= TOGETHER ? begin : rest->at;
             note(step, i, rest->at_low[i]);
             return GM_EVENTS_SLIDE;
         }
     }
-    if (many) {
-        note(step, SIZE_MAX, 0);
-    }
-    return many ? GM_EVENTS_MANY : GM_EVENTS_HAPPENED;
+    return changes && are_too_short(step, rest->at) ? GM_EVENTS_MANY : outcome;
 }
 
 static size_t aligned(size_t numbers)
@@ -670,7 +656,7 @@ static size_t aligned(size_t numbers)
 size_t gm_events_scratch(const struct gm_problem *problem, size_t size)
 {
     const size_t count = problem->events->count, quantities = problem->events->quantities;
-    return 2 * aligned(size) + 3 * (problem->n + 1) + 8 * count + 2 * quantities;
+    return 2 * aligned(size) + 2 * (problem->n + 1) + 8 * count + 2 * quantities;
 }
 
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
@@ -679,21 +665,15 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     const struct gm_problem *problem = step->problem;
     const size_t count = problem->events->count, width = problem->n + 1;
     double *next = step->scratch + 2 * aligned(step->size);
-    struct rest rest = {.step = step,
-                        .t = step->t,
-                        .rest = step->dt,
-                        .from = step->scratch,
-                        .to = step->scratch + aligned(step->size),
-                        .look = next,
-                        .before = next + width,
-                        .after = next + 2 * width,
-                        .at_low = next + 3 * width,
-                        .at_end = next + 3 * width + count,
-                        .places = next + 3 * width + 2 * count,
-                        .modes = next + 3 * width + 3 * count,
-                        .sizes = next + 3 * width + 4 * count,
-                        .causes = next + 3 * width + 5 * count,
-                        .values = next + 3 * width + 6 * count};
+    struct rest rest = {.step = step, .t = step->t, .rest = step->dt, .from = step->scratch};
+    double **const lists[] = {&rest.at_low, &rest.at_end, &rest.places, &rest.modes,
+                              &rest.sizes,  &rest.causes, &rest.values, &rest.new_values};
+    rest.to = rest.from + aligned(step->size);
+    rest.look = next;
+    rest.after = next + width;
+    for (size_t k = 0; k < GM_COUNT(lists); k++) {
+        *lists[k] = next + 2 * width + k * count;
+    }
     if (!gm_events_near(step)) {
         return GM_EVENTS_NONE;
     }
@@ -703,17 +683,18 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
         rest.sizes[i] = fabs(rest.at_low[i]) + fabs(rest.at_end[i]);
     }
     memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
-    bool some = false;
-    for (int made = 0; made <= MOST_IN_A_STEP; made++) {
+    enum gm_event_outcome so_far = GM_EVENTS_NONE;
+    for (int made = 0;; made++) {
         rest.place = take_sides(&rest) ? first_place(&rest) : NAN;
         if (rest.place > 1) {
-            return some ? GM_EVENTS_HAPPENED : GM_EVENTS_NONE;
+            return so_far;
         }
         enum gm_event_outcome outcome = isnan(rest.place) ? GM_EVENTS_FAILED : pass_first(&rest);
-        const bool last = made == MOST_IN_A_STEP && outcome <= GM_EVENTS_HAPPENED;
-        outcome = last ? GM_EVENTS_MANY : outcome;
-        if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
-            return outcome;
+        if (outcome == GM_EVENTS_MANY) {
+            step->turned = SIZE_MAX;
+        } else if (outcome <= GM_EVENTS_HAPPENED && made == MOST_IN_A_STEP) {
+            step->turned = outcome == GM_EVENTS_NONE ? 0 : step->turned;
+            outcome = GM_EVENTS_MANY;
         }
         const bool ends =
             rest.place == 1 || (step->end_time - rest.t) * step->dt <= 0; /* or beyond, by round-off */
@@ -722,12 +703,11 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
             return outcome;
         }
         if (outcome == GM_EVENTS_HAPPENED) {
-            some = true;
+            so_far = outcome;
             rest.rest = step->end_time - rest.t;
-            if (!make_rest(&rest)) {
+            if (!make_part(&rest, 1, step->end, true)) {
                 return GM_EVENTS_FAILED;
             }
         }
     }
-    return GM_EVENTS_FAILED;
 }

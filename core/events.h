@@ -59,7 +59,7 @@ struct gm_event_part {
     size_t
         cause; /* the number of the g that passes, of the event or a switch in its g; count: another event causes it */
     const double *modes;                     /* before it */
-    const double *begin, *before, *after;    /* looks: where the part begins, before and after the change */
+    const double *before, *after;            /* looks before and after the change */
     const struct gm_problem *ahead, *beyond; /* the motions before and after it */
 };
 /* Sees every event, in order. */
