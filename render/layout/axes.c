@@ -445,7 +445,7 @@ static bool add_line(const struct surroundings *around, const char *text, double
     const struct gm_box box = {within ? inside : left, fmax(0.0, fmin(y, metrics->height - line)), width,
                                line};
     const bool on_axis = around->axes[around->own].panel->axes && !mark->fixed &&
-                         box.x < data->x + air; /* its line stands at the left of the frame */
+                         box.x < data->x + air; /* the axis is the left edge of the frame */
     return !on_axis && is_free(around->axes, around->count, around->own, &box, air) &&
            gm_labels_add(list, (struct gm_label){text, GM_TEXT_TICK, mark->style.role, box.x, box.y,
                                                  .among_marks = true});
@@ -474,7 +474,7 @@ static void add_note(const struct surroundings *around, const char *const *lines
     for (size_t k = 0; k < tries && !placed; k++) {
         double top = y - 0.5 * high + shifts[k / 2] * line;
         if (!mark->fixed && high <= data->height) {
-            const double below = k < 2 ? 0.0 : 0.2 * line; /* at need letters may stand on the axis */
+            const double below = k < 2 ? 0.0 : 0.2 * line; /* without another place letters touch the axis */
             top = fmax(data->y, fmin(top, data->y + data->height - high + below));
         }
         list->count = before;
