@@ -486,7 +486,7 @@ static size_t next_caused(const struct rest *rest)
     return k < events->count ? (events->written + k) % events->count : k;
 }
 
-/* Lets switches that pass in rest->to wait where they were, if an event has led the motion back. */
+/* If an event has led the motion back, switches that pass in rest->to go on as before it. */
 static void turn_back(struct rest *rest)
 {
     const struct gm_event_step *step = rest->step;

@@ -42,7 +42,7 @@ static size_t range_count;
 static enum kind { NOTHING, MEMORY, FILES, STREAMS } kind;
 static long wanted;
 static bool from_there_on;
-static long each, first; /* a child for every each-th call, 0 for none, from this one on */
+static long each, first;   /* a child for every each-th call, 0 for none, from this one on */
 static atomic_long *count; /* shared with forked processes */
 
 void *__libc_malloc(size_t size);
