@@ -486,7 +486,7 @@ static size_t next_caused(const struct rest *rest)
     return k < events->count ? (events->written + k) % events->count : k;
 }
 
-/* If an event has led the motion back, switches that pass in rest->to go on as before it. */
+/* If an event has led the motion back, switches that pass in rest->to keep the side that they had before it. */
 static void turn_back(struct rest *rest)
 {
     const struct gm_event_step *step = rest->step;
