@@ -76,9 +76,7 @@ const double *gm_run_events(const struct gm_run *run)
     return run->problem->events ? events_of(run, run->current) : NULL;
 }
 
-/* Returns true if breaks are located for a scheme: its steps can be made in parts. A symplectic scheme of order 1 steps
-   across them: that keeps its order, and parts would change its energy in the same direction at each break. */
-static bool locates(const struct gm_scheme *scheme)
+bool gm_scheme_locates_breaks(const struct gm_scheme *scheme)
 {
     return gm_scheme_has_one_step(scheme) && !(scheme->order == 1 && (scheme->claims & GM_SYMPLECTIC));
 }
@@ -86,7 +84,7 @@ static bool locates(const struct gm_scheme *scheme)
 bool gm_run_locates(const struct gm_run *run)
 {
     return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
-           locates(run->scheme);
+           gm_scheme_locates_breaks(run->scheme);
 }
 
 /* Opens the workspace for the present motion. */

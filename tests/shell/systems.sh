@@ -1080,6 +1080,13 @@ printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2
 python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] < 0.1' || fail "symplectic steps across breaks: $(cat out)"
 "$geomint" run springs.system scheme=symplectic-euler --json >out || fail "symplectic steps across breaks: $(cat out)"
 grep -q '"breaks":"ignored"' out || fail "symplectic steps across breaks: $(cat out)"
+for scheme in symplectic-euler dopri5; do
+    "$geomint" certify $scheme --on springs.system >out
+    grep -q 'measured nowhere: the system is not smooth, so that' out || fail "$scheme across breaks: $(cat out)"
+done
+# one of order 3 locates them, which keeps its order
+"$geomint" certify ruth3 --on springs.system >out
+grep -q 'order 3, measured \(2.9\|3.0\)' out || fail "ruth3 through breaks: $(cat out)"
 refused 1 'event: is a line of a system' run ./corner.system 'event=q = 1; p = 0'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
 status 0 run system 'rate=x = 1, z = if(x > 0 and not x > 1 or x > 5, 2, 0)' x=-1 z=0 dt=0.1 until=3 scheme=rk4
