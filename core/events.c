@@ -101,13 +101,16 @@ double gm_events_booked(const struct gm_problem *problem, const double *memory, 
     return memory[2 * problem->events->count + quantity];
 }
 
-/* Copies the last member's state, and the time. */
-static void look_at(const struct gm_problem *problem, double t, const double *y, double *look)
+/* Copies the last member of `count` states, with their times. */
+static void look_at(const struct gm_problem *problem, const double *times, const double *states, size_t count,
+                    double *looks)
 {
-    for (size_t c = 0; c < problem->n; c++) {
-        look[c] = y[c * problem->m + problem->m - 1];
+    for (size_t k = 0; k < count; k++) {
+        for (size_t c = 0; c < problem->n; c++) {
+            looks[c * count + k] = states[(k * problem->n + c + 1) * problem->m - 1];
+        }
+        looks[problem->n * count + k] = times[k];
     }
-    look[problem->n] = t;
 }
 
 /* The size of the sign with which an event waits for a motion that rests on g = 0. */
@@ -219,10 +222,11 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
     }
 }
 
-static void find_g(const struct gm_event_step *step, const double *look, double *g)
+/* Writes the g of all events in `count` looks. */
+static void find_g(const struct gm_event_step *step, const double *looks, size_t count, double *g)
 {
     const double *modes = gm_events_modes(step->problem, step->memory);
-    step->problem->events->values(step->problem, modes, look, g);
+    step->problem->events->values(step->problem, modes, looks, count, g);
 }
 
 /* Sets the switches in a look, whose g depend on those before them; only those whose g is none of `before`, if that is
@@ -232,47 +236,51 @@ static void settle(const struct gm_event_step *step, const double *look, const d
     /* where g is 0 the modes of all others are needed, and others need its own */
     for (int pass = 0; pass < 3; pass++) {
         for (size_t i = step->problem->events->written; i < step->problem->events->count; i++) {
-            find_g(step, look, g);
+            find_g(step, look, 1, g);
             if (is_watched(step, i) && (g[i] == 0) == (pass == 1) && !(before && g[i] == before[i])) {
                 wait_ahead(step, i, look, g[i], 0);
             }
         }
     }
-    find_g(step, look, g);
+    find_g(step, look, 1, g);
 }
 
 void gm_events_arm(struct gm_event_step *step)
 {
     const struct gm_problem *problem = step->problem;
     double *look = step->scratch, *g = look + problem->n + 1;
-    look_at(problem, step->t, step->begin, look);
+    look_at(problem, &step->t, step->begin, 1, look);
     settle(step, look, NULL, g);
     for (size_t i = 0; i < problem->events->written && step->first; i++) {
         wait_ahead(step, i, look, g[i], 0);
     }
 }
 
-bool gm_events_near(const struct gm_event_step *step)
+int64_t gm_events_near(const struct gm_event_step *step, const double *states, const double *times,
+                       int64_t count)
 {
-    double *look = step->scratch, *g = look + step->problem->n + 1;
-    look_at(step->problem, step->end_time, step->end, look);
-    find_g(step, look, g);
-    bool near = false;
+    const size_t most = (size_t)count;
+    double *looks = step->scratch, *g = looks + (step->problem->n + 1) * most;
+    size_t first = most;
+    look_at(step->problem, times, states, most, looks);
+    find_g(step, looks, most, g);
     for (size_t i = 0; i < step->problem->events->count; i++) {
-        near |= has_passed(step, i, g[i]) || (is_watched(step, i) && awaited(step, i) == 0 && g[i] != 0);
+        const bool undecided = is_watched(step, i) && awaited(step, i) == 0;
+        for (size_t k = 0; k < first; k++) {
+            first = has_passed(step, i, g[i * most + k]) || (undecided && g[i * most + k] != 0) ? k : first;
+        }
     }
-    return near;
+    return (int64_t)first;
 }
 
 /* ---- the events of a step ---- */
 
-/* The remaining part of a step, from `from` at t on for a time `rest`. */
+/* The remaining part of a step, from step->from at t on for a time `rest`. */
 struct rest {
     struct gm_event_step *step;
     double t, rest;
     double low, place;    /* the fractions of `rest` up to which all is passed, and where g passes 0 next */
     size_t event;         /* whose place is looked for */
-    double *from, *to;    /* states with all that belongs to them; `to`: room for a trial */
     double at;            /* the time of `to` */
     double *look, *after; /* looks */
     double *at_low, *at_end, *values; /* g of all events, at both ends and anywhere */
@@ -289,8 +297,8 @@ static const double HAS_HAPPENED = -1;
 /* Writes the g of all events. */
 static void find_values(struct rest *rest, double t, const double *y, double *values)
 {
-    look_at(rest->step->problem, t, y, rest->look);
-    find_g(rest->step, rest->look, values);
+    look_at(rest->step->problem, &t, y, 1, rest->look);
+    find_g(rest->step, rest->look, 1, values);
 }
 
 /* Writes the state after a fraction of the rest, and its time to rest->at. `counted`: the run takes this part. */
@@ -298,12 +306,12 @@ static bool make_part(struct rest *rest, double s, double *to, bool counted)
 {
     struct gm_event_step *step = rest->step;
     if (s == 0) {
-        memcpy(to, rest->from, step->size * sizeof *to);
+        memcpy(to, step->from, step->size * sizeof *to);
         rest->at = rest->t;
         return true;
     }
     step->parts = true;
-    rest->at = step->part(step->data, rest->from, rest->t, s * rest->rest, to, counted);
+    rest->at = step->part(step->data, step->from, rest->t, s * rest->rest, to, counted);
     return !isnan(rest->at);
 }
 
@@ -311,10 +319,11 @@ static bool make_part(struct rest *rest, double s, double *to, bool counted)
 static double value_after(void *data, double s)
 {
     struct rest *rest = data;
-    if (!make_part(rest, s, rest->to, false)) {
+    double *to = rest->step->to;
+    if (!make_part(rest, s, to, false)) {
         return NAN;
     }
-    find_values(rest, rest->at, rest->to, rest->values);
+    find_values(rest, rest->at, to, rest->values);
     return watched_value(rest->step, rest->event, rest->values[rest->event]);
 }
 
@@ -407,7 +416,7 @@ static void book(struct rest *rest)
 /* Places closer than this are one. */
 static const double TOGETHER = 4e-15;
 
-/* Returns true if a g passes 0 in rest->to. */
+/* Returns true if a g passes 0 in step->to. */
 static bool passes_here(const struct rest *rest, size_t event)
 {
     return rest->places[event] <= rest->place + TOGETHER;
@@ -424,7 +433,7 @@ static void pass_by(const struct rest *rest, size_t event, double g)
     }
 }
 
-/* Returns true if an event happens in rest->to by what passes there: if its g passes 0, but at no pole; or if a switch in g
+/* Returns true if an event happens in step->to by what passes there: if its g passes 0, but at no pole; or if a switch in g
    lets it jump to 0, or from 0 before it has passed. A g that only jumps also happens if it jumps past 0. */
 static bool is_caused(const struct rest *rest, size_t event)
 {
@@ -444,14 +453,14 @@ static bool is_caused(const struct rest *rest, size_t event)
     return (passes_here(rest, event) && !pole) || (after != g && (fabs(after) <= nothing || leaves));
 }
 
-/* Turns the switches that pass in rest->to, but breaks, and finds what they and breaks cause. Other events pass by. */
+/* Turns the switches that pass in step->to, but breaks, and finds what they and breaks cause. Other events pass by. */
 static void find_causes(struct rest *rest)
 {
     struct gm_event_step *step = rest->step;
     const struct gm_events *events = step->problem->events;
     const size_t switches = (events->count - events->written) * sizeof *rest->modes;
     size_t turned = events->count;
-    find_values(rest, rest->at, rest->to, rest->values);
+    find_values(rest, rest->at, step->to, rest->values);
     memcpy(rest->modes, step->memory + events->written, switches);
     for (size_t i = events->written; i < events->count; i++) {
         const bool passes = passes_here(rest, i);
@@ -486,7 +495,7 @@ static size_t next_caused(const struct rest *rest)
     return k < events->count ? (events->written + k) % events->count : k;
 }
 
-/* If an event has led the motion back, switches that pass in rest->to keep the side that they had before it. */
+/* Lets switches that pass in step->to wait on the side of before, if an event has led the motion back. */
 static void turn_back(struct rest *rest)
 {
     const struct gm_event_step *step = rest->step;
@@ -530,7 +539,7 @@ static void note(struct gm_event_step *step, size_t event, double g)
     step->turned_at = form_of(step, event) == GM_AT_WHOLE ? round(g) : 0;
 }
 
-/* Lets an event that is caused change the state rest->to, or a break the motion; rest->look and rest->values are of that
+/* Lets an event that is caused change the state step->to, or a break the motion; rest->look and rest->values are of that
    state. Returns GM_EVENTS_HAPPENED, GM_EVENTS_NO_VALUE, or GM_EVENTS_FAILED if the scheme cannot start from there. */
 static enum gm_event_outcome change(struct rest *rest, size_t event)
 {
@@ -546,9 +555,9 @@ static enum gm_event_outcome change(struct rest *rest, size_t event)
     if (event >= events->written) {
         turn(step, event, rest->values[event]);
     } else {
-        events->change(problem, event, rest->look, rest->to);
+        events->change(problem, event, rest->look, step->to);
     }
-    look_at(problem, rest->at, rest->to, rest->after);
+    look_at(problem, &rest->at, step->to, 1, rest->after);
     if (event < events->written) {
         double nothing = 0; /* 0 times a value that is not finite is NaN */
         for (size_t c = 0; c < problem->n; c++) {
@@ -558,8 +567,8 @@ static enum gm_event_outcome change(struct rest *rest, size_t event)
             step->turned_at = rest->at;
             return GM_EVENTS_NO_VALUE;
         }
-        memset(rest->to + step->state, 0, (step->size - step->state) * sizeof *rest->to);
-        if (!step->restart(step->data, rest->at, rest->to)) {
+        memset(step->to + step->state, 0, (step->size - step->state) * sizeof *step->to);
+        if (!step->restart(step->data, rest->at, step->to)) {
             return GM_EVENTS_FAILED;
         }
         turn_back(rest);
@@ -570,8 +579,8 @@ static enum gm_event_outcome change(struct rest *rest, size_t event)
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
     if (part.ahead && part.beyond) {
-        events->carry_within(problem, &part, rest->to);
-        look_at(problem, rest->at, rest->to, rest->after);
+        events->carry_within(problem, &part, step->to);
+        look_at(problem, &rest->at, step->to, 1, rest->after);
         if (step->witness.see) {
             step->witness.see(step->witness.data, &part);
         }
@@ -601,7 +610,7 @@ static enum gm_event_outcome pass_first(struct rest *rest)
     const double begin = rest->t;
     enum gm_event_outcome outcome = GM_EVENTS_NONE;
     bool changes = false;
-    if (!make_part(rest, rest->place, rest->to, false)) {
+    if (!make_part(rest, rest->place, step->to, false)) {
         return GM_EVENTS_FAILED;
     }
     step->reached = rest->at;
@@ -614,13 +623,13 @@ static enum gm_event_outcome pass_first(struct rest *rest)
     find_causes(rest);
     for (size_t i; (i = next_caused(rest)) < events->count;) {
         const bool written = i < events->written;
-        find_values(rest, rest->at, rest->to, rest->values);
+        find_values(rest, rest->at, step->to, rest->values);
         if (written && !events->change(step->problem, i, rest->look, NULL)) {
             pass_by(rest, i, rest->values[i]);
             rest->causes[i] = HAS_HAPPENED;
             continue;
         }
-        if (outcome == GM_EVENTS_NONE && !make_part(rest, rest->place, rest->to, true)) {
+        if (outcome == GM_EVENTS_NONE && !make_part(rest, rest->place, step->to, true)) {
             return GM_EVENTS_FAILED;
         }
         if (written && events->ends[i]) {
@@ -631,12 +640,12 @@ static enum gm_event_outcome pass_first(struct rest *rest)
         if (outcome != GM_EVENTS_HAPPENED) {
             return outcome;
         }
-        memcpy(rest->from, rest->to, step->size * sizeof *rest->from);
+        memcpy(step->from, step->to, step->size * sizeof *step->from);
         rest->t = rest->at;
         changes |= written;
     }
     rest->low = outcome == GM_EVENTS_NONE ? rest->place : 0;
-    find_values(rest, rest->at, rest->to, rest->at_low);
+    find_values(rest, rest->at, step->to, rest->at_low);
     for (size_t i = events->written; i < events->count && outcome != GM_EVENTS_NONE; i++) {
         if (is_break(step, i) && passes_here(rest, i) && leads_back(step, i, rest->look, rest->at_low[i])) {
             step->reached = rest->place <= TOGETHER ? begin : rest->at;
@@ -647,16 +656,10 @@ static enum gm_event_outcome pass_first(struct rest *rest)
     return changes && are_too_short(step, rest->at) ? GM_EVENTS_MANY : outcome;
 }
 
-static size_t aligned(size_t numbers)
+size_t gm_events_scratch(const struct gm_problem *problem)
 {
-    const size_t line = 16; /* doubles */
-    return (numbers + line - 1) / line * line;
-}
-
-size_t gm_events_scratch(const struct gm_problem *problem, size_t size)
-{
-    const size_t count = problem->events->count, quantities = problem->events->quantities;
-    return 2 * aligned(size) + 2 * (problem->n + 1) + 8 * count + 2 * quantities;
+    const size_t count = problem->events->count, together = GM_EVENTS_TOGETHER * (problem->n + 1 + count);
+    return together + 2 * (problem->n + 1) + 8 * count + 2 * problem->events->quantities;
 }
 
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
@@ -664,17 +667,14 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     enum { MOST_IN_A_STEP = 1000 };
     const struct gm_problem *problem = step->problem;
     const size_t count = problem->events->count, width = problem->n + 1;
-    double *next = step->scratch + 2 * aligned(step->size);
-    struct rest rest = {.step = step, .t = step->t, .rest = step->dt, .from = step->scratch};
+    struct rest rest = {.step = step, .t = step->t, .rest = step->dt, .look = step->scratch};
     double **const lists[] = {&rest.at_low, &rest.at_end, &rest.places, &rest.modes,
                               &rest.sizes,  &rest.causes, &rest.values, &rest.new_values};
-    rest.to = rest.from + aligned(step->size);
-    rest.look = next;
-    rest.after = next + width;
+    rest.after = rest.look + width;
     for (size_t k = 0; k < GM_COUNT(lists); k++) {
-        *lists[k] = next + 2 * width + k * count;
+        *lists[k] = rest.look + 2 * width + k * count;
     }
-    if (!gm_events_near(step)) {
+    if (gm_events_near(step, step->end, &step->end_time, 1) == 1) {
         return GM_EVENTS_NONE;
     }
     find_values(&rest, step->end_time, step->end, rest.at_end);
@@ -682,7 +682,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     for (size_t i = 0; i < count; i++) {
         rest.sizes[i] = fabs(rest.at_low[i]) + fabs(rest.at_end[i]);
     }
-    memcpy(rest.from, step->begin, step->size * sizeof *rest.from);
+    memcpy(step->from, step->begin, step->size * sizeof *step->from);
     enum gm_event_outcome so_far = GM_EVENTS_NONE;
     for (int made = 0;; made++) {
         rest.place = take_sides(&rest) ? first_place(&rest) : NAN;
@@ -699,7 +699,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
         const bool ends =
             rest.place == 1 || (step->end_time - rest.t) * step->dt <= 0; /* or beyond, by round-off */
         if (outcome > GM_EVENTS_HAPPENED || (outcome == GM_EVENTS_HAPPENED && (ends || step->varies))) {
-            memcpy(step->end, rest.to, step->size * sizeof *rest.to);
+            memcpy(step->end, step->to, step->size * sizeof *step->to);
             return outcome;
         }
         if (outcome == GM_EVENTS_HAPPENED) {

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "core/problem.h"
 
@@ -26,8 +27,10 @@ struct gm_events {
     const enum gm_event_form *forms; /* [count]; of switches no jump */
     const bool *ends;                /* [count]: the event ends the run, and changes no state */
     bool changes, ends_runs;         /* some event changes the state; some ends the run */
-    /* Writes g of all, with switches in these modes. NaN when out of memory. */
-    void (*values)(const struct gm_problem *problem, const double *modes, const double *look, double *values);
+    /* Writes g of all in `count` looks, with switches in these modes: number i of look k is at [i * count + k], of looks
+       and of g. NaN when out of memory. */
+    void (*values)(const struct gm_problem *problem, const double *modes, const double *looks, size_t count,
+                   double *values);
     /* Returns true if the conditions of an event hold. Writes the n components after it, unless y is NULL. */
     bool (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
     /* Returns dg/dt along a motion, of the problem or with frozen switches. */
@@ -85,10 +88,12 @@ struct gm_event_step {
     bool first;   /* of the run: a start on g = 0, up to round-off, does not pass it; all events are armed */
     bool ends;    /* events that end the run do so */
     bool locates; /* breaks are located */
-    size_t size, state;       /* numbers of a state with its carry and the scheme's memory, and without */
-    const double *begin;      /* the state before */
-    double *end;              /* the state after the whole step; then the one after the events */
-    double *memory, *scratch; /* scratch: gm_events_scratch */
+    size_t size, state;  /* numbers of a state with its carry and the scheme's memory, and without */
+    const double *begin; /* the state before */
+    double *end;         /* the state after the whole step; then the one after the events */
+    double *memory;
+    double *from, *to; /* room for two states with all that belongs to them */
+    double *scratch;   /* gm_events_scratch */
     /* Writes the state after a part of a step, of length dt from `from` at t. `counted` if it is one that the
        run takes. Returns its time, NAN if it fails. */
     double (*part)(void *data, const double *from, double t, double dt, double *to, bool counted);
@@ -113,12 +118,15 @@ enum gm_event_outcome {
     GM_EVENTS_SLIDE
 };
 
-size_t gm_events_scratch(const struct gm_problem *problem, size_t size);
+enum { GM_EVENTS_TOGETHER = 32 };
+size_t gm_events_scratch(const struct gm_problem *problem);
 /* Begins the waiting of switches, and if step->first of all events, in the state `begin` at t, of the last member; counts
    and jumps stay. */
 void gm_events_arm(struct gm_event_step *step);
-/* Returns true if some event, at the end of a step, has not the sign that it waits with, or waits with none. */
-bool gm_events_near(const struct gm_event_step *step);
+/* Returns the first of `count` states, GM_EVENTS_TOGETHER at most, at which some event has not the sign that it waits with,
+   or waits with none; `count`: at no state. */
+int64_t gm_events_near(const struct gm_event_step *step, const double *states, const double *times,
+                       int64_t count);
 /* The modes of switches. */
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at

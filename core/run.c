@@ -76,9 +76,7 @@ const double *gm_run_events(const struct gm_run *run)
     return run->problem->events ? events_of(run, run->current) : NULL;
 }
 
-/* Returns true if breaks are located for a scheme: its steps can be made in parts. A symplectic scheme of order 1 steps
-   across them: that keeps its order, and parts would change its energy in the same direction at each break. */
-static bool locates(const struct gm_scheme *scheme)
+bool gm_scheme_locates_breaks(const struct gm_scheme *scheme)
 {
     return gm_scheme_has_one_step(scheme) && !(scheme->order == 1 && (scheme->claims & GM_SYMPLECTIC));
 }
@@ -86,7 +84,7 @@ static bool locates(const struct gm_scheme *scheme)
 bool gm_run_locates(const struct gm_run *run)
 {
     return run->problem->events && run->problem->events->breaks > 0 && run->problem->m == 1 && !run->across &&
-           locates(run->scheme);
+           gm_scheme_locates_breaks(run->scheme);
 }
 
 /* Opens the workspace for the present motion. */
@@ -225,6 +223,7 @@ static bool restart(void *data, double t, double *state)
 /* The current state, as a step without length that events may be in. */
 static struct gm_event_step event_step(struct gm_run *run)
 {
+    const size_t apart = run->half_size / sizeof(double);
     double *state = half(run, run->current);
     return (struct gm_event_step){.problem = run->problem,
                                   .t = run->t,
@@ -238,7 +237,9 @@ static struct gm_event_step event_step(struct gm_run *run)
                                   .begin = state,
                                   .end = state,
                                   .memory = events_of(run, run->current),
-                                  .scratch = run->event_scratch,
+                                  .from = run->event_scratch,
+                                  .to = run->event_scratch + apart,
+                                  .scratch = run->event_scratch + 2 * apart,
                                   .part = make_part,
                                   .restart = restart,
                                   .motion = take_motion,
@@ -273,7 +274,8 @@ static void start(struct gm_run *run)
 /* Takes the scratch of events. */
 static bool open_events(struct gm_run *run)
 {
-    const size_t size = gm_events_scratch(run->problem, whole_count(run)) * sizeof(double);
+    const size_t trace = GM_EVENTS_TOGETHER * (state_count(run) + 1),
+                 size = 2 * run->half_size + (gm_events_scratch(run->problem) + trace) * sizeof(double);
     run->looks_back = true;
     run->event_scratch = aligned_alloc(ALIGNMENT, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
     return run->event_scratch != NULL;
@@ -463,7 +465,8 @@ static void pass_events(struct gm_run *run, double dt)
     }
 }
 
-/* Makes up to `steps` steps of a scheme that repeats steps, before the first in which an event may happen, or that fails. */
+/* Makes up to `steps` steps of a scheme that repeats steps, before the first in which an event may happen, or that fails:
+   some together, if the scheme's loop traces them, and those up to it again. */
 static void make_steps_before_events(struct gm_run *run, int64_t steps)
 {
     const unsigned long refusals = gm_memory_refusals();
@@ -471,25 +474,30 @@ static void make_steps_before_events(struct gm_run *run, int64_t steps)
         return;
     }
     gm_loop *loop = gm_scheme_loop(run->scheme, run->motion);
-    struct gm_event_step step = event_step(run);
-    struct gm_task tasks[2]; /* from each half of the block to the other */
-    for (int from = 0; from < 2; from++) {
-        tasks[from] = part_of(run, half(run, from), run->t, run->dt, half(run, 1 - from));
-    }
-    for (int64_t made = 0; made < steps; made++) {
-        struct gm_task *task = &tasks[run->current];
-        task->t = task->t0 = run->t;
-        task->steps_before = run->steps;
-        step.memory = events_of(run, run->current);
-        step.end = task->out;
-        step.end_time = run->t0 + (double)(run->n + 1) * run->dt;
-        const struct gm_progress progress = loop(task);
+    double *trace = event_step(run).scratch + gm_events_scratch(run->problem),
+           *times = trace + GM_EVENTS_TOGETHER * state_count(run);
+    int64_t made = 0, together = 1; /* the first step shows if the loop traces */
+    while (made < steps) {
+        const int64_t left = steps - made;
+        struct gm_task task = task_of(run, run->current, 1 - run->current, left < together ? left : together);
+        task.trace = run->problem->m == 1 && run->problem->passive == 0 ? trace : NULL;
+        const struct gm_progress progress = loop(&task);
+        for (int64_t k = 0; k < progress.done; k++) {
+            times[k] = run->t0 + (double)(run->n + k + 1) * run->dt;
+        }
+        const struct gm_event_step step = event_step(run);
+        const int64_t done = gm_events_near(&step, progress.traced ? trace : task.out, times, progress.done);
+        const bool refused = gm_memory_refusals() != refusals;
         run->behind = 0;
-        if (progress.done < 1 || gm_events_near(&step) || gm_memory_refusals() != refusals) {
+        if (done < task.steps || refused) {
             reset_workspace(run);
+            make_steps(run, refused ? 0 : done, INFINITY, false);
             return;
         }
         take_steps(run, &progress, false);
+        made += done;
+        /* at most a third of the steps are made in vain where events are close */
+        together = progress.traced ? (int64_t)fmin(1 + (double)made / 2, GM_EVENTS_TOGETHER) : 1;
     }
 }
 

@@ -140,9 +140,11 @@ status 0 run ./cycle.system scheme=gauss8 --state --json
 holds 'near(d["state"][0], 2.0086198608748, 1e-10) and near(d["state"][1], 0, 1e-10)'
 status 0 again cycle.svg
 status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1 --json
-holds 'd["status"] == "an equilibrium"'
+holds 'd["status"] == "an equilibrium" and d["multipliers"] == [] and d["stability"] == "none" and d["period"] == 1'
+status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1
+grep -q '^  multipliers  *none$' out && grep -q '^  kind  *none$' out && ! grep -q structure out || fail "what an equilibrium has: $(cat out)"
 status 2 orbit lorenz period=.3 --json
-holds 'd["status"] == "no-convergence" and d["residual"] > 1e-6'
+holds 'd["status"] == "no-convergence" and d["residual"] > 1e-6 and d["multipliers"] == []'
 refused 1 "fix=zz is not a component; did you mean z" orbit lorenz fix=zz
 refused 1 "period=-1 is not a number above 0" orbit lorenz period=-1
 refused 1 "period= is a word of the flow" orbit lorenz steps=3 period=1

@@ -1073,6 +1073,16 @@ for scheme in verlet-position rk4 gauss4 midpoint avf2 radau5 tao2; do
     done
     [ -s located.state ] && cmp -s located.state ignored.state || fail "switches that are far away change bits by $scheme"
 done
+# steps before a break or an event are made together, unless each is looked at for a section: the same bits
+printf 'rate: x = v, v = -x + abs(x - 0.3) - if(v > 0, 1, 2)*x/7, n = 0\nevent: x = 0.55, v > 0; n = n + 1\nevent: mod(t, 1.7) = 0; v = v + 0.1\n' >many.system
+printf 'start: x = 1, v = 0.3, n = 0\ndt: 0.013\nuntil: 60\n' >>many.system
+{ cat many.system; echo 'section: x + 99 = 0; x, v'; } >single.system
+for scheme in rk4 gauss4 midpoint radau5 rk4sym dopri5; do
+    for group in many single; do
+        "$geomint" run $group.system scheme=$scheme --json --state 2>notes | sed 's/.*"steps"/"steps"/; s/"seconds":[^,]*,//' >$group.state
+    done
+    grep -q '"events":43}' many.state && cmp -s many.state single.state || fail "steps together, $scheme: $(cat many.state single.state)"
+done
 # the rates of Robertson's reactions: that of the slowest component, and of the fastest decay (Gear, 1971)
 printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2\nstart: a = 1, b = 0, c = 0\nuntil: 40\n' >robertson.system
 "$geomint" list robertson.system --long | grep -q 'stiff *yes rates 0.038 to 2.2e+03' || fail 'the rates of a stiff system'
@@ -1081,6 +1091,13 @@ printf 'rate: a = -0.04*a + 1e4*b*c, b = 0.04*a - 3e7*b^2 - 1e4*b*c, c = 3e7*b^2
 python3 -c 'import json; assert json.load(open("out"))["observables"]["energy_error"] < 0.1' || fail "symplectic steps across breaks: $(cat out)"
 "$geomint" run springs.system scheme=symplectic-euler --json >out || fail "symplectic steps across breaks: $(cat out)"
 grep -q '"breaks":"ignored"' out || fail "symplectic steps across breaks: $(cat out)"
+for scheme in symplectic-euler dopri5; do
+    "$geomint" certify $scheme --on springs.system >out
+    grep -q 'measured nowhere: the system is not smooth, so that' out || fail "$scheme across breaks: $(cat out)"
+done
+# one of order 3 locates them, which keeps its order
+"$geomint" certify ruth3 --on springs.system >out
+grep -q 'order 3, measured \(2.9\|3.0\)' out || fail "ruth3 through breaks: $(cat out)"
 refused 1 'event: is a line of a system' run ./corner.system 'event=q = 1; p = 0'
 refused 1 'breaks=foo is none of: located, ignored' run ./springs.system breaks=foo
 status 0 run system 'rate=x = 1, z = if(x > 0 and not x > 1 or x > 5, 2, 0)' x=-1 z=0 dt=0.1 until=3 scheme=rk4

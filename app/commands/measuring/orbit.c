@@ -232,7 +232,7 @@ static void print_text(const struct work *work)
     printf("\n  %-20s %.16g\n  %-20s %.3g\n  %-20s %d\n  %-20s %s\n  %-20s %s\n", "period", orbit->period,
            "residual", orbit->residual, "iterations", orbit->iterations, "multipliers",
            multipliers_of(work, 10), "kind", gm_periodic_kind(orbit));
-    if (orbit->by_structure > 0) {
+    if (orbit->by_structure > 0 && orbit->count > 0) {
         printf("  %-20s %zu\n", "1 by structure", orbit->by_structure);
     }
 }

@@ -636,8 +636,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         certificate->order = NAN;
         certificate->ladder.settled = false;
         certificate->order_reason =
-            system->problem->events && system->problem->events->breaks > 0 &&
-                    !system->problem->events->changes
+            subject.problem.events && subject.problem.events->breaks > 0 &&
+                    !subject.problem.events->changes && gm_scheme_locates_breaks(scheme)
                 ? "the system is not smooth, and 2000 steps do not pass each break twice"
                 : "the system is not smooth, so that no order can be measured";
     } else if (unclear) {

@@ -245,7 +245,7 @@ static void shorten(struct search *search)
     }
 }
 
-/* Writes the multipliers in descending order of their moduli. */
+/* Writes the multipliers of an orbit that was found, in descending order of their moduli. */
 static void find_multipliers(struct search *search)
 {
     struct gm_periodic *orbit = search->orbit;
@@ -254,7 +254,7 @@ static void find_multipliers(struct search *search)
     for (size_t i = 0; i < n * n; i++) {
         search->matrix[i] = search->frame[i % n * search->stride + i / n];
     }
-    orbit->count = isfinite(orbit->residual) && gm_eigenvalues(search->matrix, n, re, im) ? n : 0;
+    orbit->count = orbit->status == GM_PERIODIC_FOUND && gm_eigenvalues(search->matrix, n, re, im) ? n : 0;
     for (size_t i = 1; i < orbit->count; i++) {
         const double x = re[i], y = im[i];
         size_t at = i;
@@ -296,10 +296,6 @@ static void find(struct gm_arena *arena, void *data)
     do {
         iterate(&search);
     } while (orbit->refined && orbit->residual <= stalled * scale_of(&search) && refine(&search));
-    if (orbit->free && orbit->residual <= stalled * scale_of(&search)) {
-        shorten(&search);
-    }
-    find_multipliers(&search);
     /* next to an equilibrium of weak decay the residual is small, but not against the motion */
     const double least = fmax(1e-10, 1e6 * orbit->residual / orbit->period);
     double fastest = 0;
@@ -310,6 +306,10 @@ static void find(struct gm_arena *arena, void *data)
     orbit->status = !(orbit->residual <= stalled * scale_of(&search)) ? GM_PERIODIC_NO_CONVERGENCE
                     : orbit->free && fastest < least                  ? GM_PERIODIC_EQUILIBRIUM
                                                                       : GM_PERIODIC_FOUND;
+    if (orbit->free && orbit->status == GM_PERIODIC_FOUND) {
+        shorten(&search);
+    }
+    find_multipliers(&search);
 }
 
 bool gm_periodic_find(struct gm_periodic *orbit)

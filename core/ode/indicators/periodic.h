@@ -35,7 +35,7 @@ struct gm_periodic {
     int iterations;
     double
         *multipliers; /* the real parts of n eigenvalues of M by falling modulus, then the imaginary ones */
-    size_t count;     /* their number: without the time, if that is a component */
+    size_t count;     /* their number: without the time, if that is a component; 0: no orbit was found */
 };
 
 /* Returns the time of the first return to the plane through y normal to f(y), in the direction of f and within half of

@@ -10,35 +10,39 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/user/data.h"
 
-/* Evaluates a tape of the system with frozen switches, whose inputs are all variables; the modes are the last. */
-static void frozen_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
-                          const double *look, double *values)
+/* Evaluates a tape of events in `count` looks, which begin with what it needs: the components of the system and the time.
+   With frozen switches its inputs are all variables, of which the modes are the last. */
+static void tape_values(const struct gm_problem *problem, struct gm_late_tape *tape, const double *modes,
+                        const double *looks, size_t count, double *values)
 {
     enum { FEW = 256 }; /* more inputs are allocated */
     const struct gm_user_data *self = gm_user_data_of(problem);
-    const size_t given = self->model->system->n + 1, own = self->model->system->variable_count;
-    double few[FEW], *inputs = tape->inputs <= FEW ? few : malloc(tape->inputs * sizeof *inputs);
-    for (size_t i = 0; i < tape->count && !inputs; i++) {
+    const size_t given = self->model->system->n + 1, own = self->model->system->variable_count,
+                 all = tape->inputs * count;
+    if (!self->model->frozen) {
+        gm_late_tape_values(tape, looks, values, count);
+        return;
+    }
+    double few[FEW], *inputs = all <= FEW ? few : malloc(all * sizeof *inputs);
+    for (size_t i = 0; i < tape->count * count && !inputs; i++) {
         values[i] = NAN;
     }
     if (inputs) {
-        memcpy(inputs, look, given * sizeof *inputs);
-        memcpy(inputs + given, self->values + given, (own - given) * sizeof *inputs);
-        memcpy(inputs + own, modes, (tape->inputs - own) * sizeof *inputs);
-        gm_late_tape_values(tape, inputs, values, 1);
+        memcpy(inputs, looks, given * count * sizeof *inputs);
+        for (size_t i = given; i < tape->inputs; i++) {
+            for (size_t k = 0; k < count; k++) {
+                inputs[i * count + k] = i < own ? self->values[i] : modes[i - own];
+            }
+        }
+        gm_late_tape_values(tape, inputs, values, count);
     }
     free(inputs == few ? NULL : inputs);
 }
 
-/* The components of a system that holds the time end with it, so a look begins with all that tapes need: the system's
-   components and the time. */
-static void values(const struct gm_problem *problem, const double *modes, const double *look, double *g)
+static void values(const struct gm_problem *problem, const double *modes, const double *looks, size_t count,
+                   double *g)
 {
-    if (gm_user_data_of(problem)->model->frozen) {
-        frozen_values(problem, &gm_user_data_of(problem)->tapes[GM_USER_SURFACES], modes, look, g);
-    } else {
-        gm_user_values(problem, GM_USER_SURFACES, look, g, 1);
-    }
+    tape_values(problem, &gm_user_data_of(problem)->tapes[GM_USER_SURFACES], modes, looks, count, g);
 }
 
 static const struct gm_user_event *event_of(const struct gm_problem *problem, size_t event)
@@ -52,15 +56,13 @@ static const struct gm_user_event *event_of(const struct gm_problem *problem, si
 /* gm_events.change */
 static bool change(const struct gm_problem *problem, size_t event, const double *look, double *y)
 {
-    struct gm_user_data *self = gm_user_data_of(problem);
     const struct gm_user_event *formulas = event_of(problem, event);
-    struct gm_late_tape *tape = &self->changes[event];
-    const bool breaks = event >= self->model->event_count;
-    double *outcome = breaks ? NULL : malloc((tape->count + 1) * sizeof *outcome);
+    struct gm_late_tape *tape = &gm_user_data_of(problem)->changes[event];
+    double *outcome = malloc((tape->count + 1) * sizeof *outcome);
     if (outcome && tape->count > 0) {
         gm_late_tape_values(tape, look, outcome, 1);
     }
-    bool all = outcome || breaks;
+    bool all = outcome != NULL;
     for (size_t i = 0; i < formulas->conditions && all; i++) {
         all = outcome[i] > 0;
     }
@@ -122,12 +124,7 @@ static bool open_saltation(const struct gm_problem *problem, const double *modes
     saltation->v = saltation->after + width;
     saltation->along_rates = saltation->v + width;
     saltation->along_v = saltation->along_rates + rows;
-    struct gm_user_data *self = gm_user_data_of(problem);
-    if (self->model->frozen) {
-        frozen_values(problem, &self->event_slopes[event], modes, before, saltation->slopes);
-    } else {
-        gm_late_tape_values(&self->event_slopes[event], before, saltation->slopes, 1);
-    }
+    tape_values(problem, &gm_user_data_of(problem)->event_slopes[event], modes, before, 1, saltation->slopes);
     field_at(motion, before, saltation->before);
     slopes_along(problem, event, saltation->slopes, saltation->before, saltation->along_rates,
                  &saltation->size);
