@@ -3,7 +3,7 @@
    and its highest, or at each of its choices, the others at their defaults. Whatever comes is a sentence, a
    status, or finite numbers, in a bounded time; the sanitizers say whether it was come by honestly.
 
-   corners           a third of the corners, another one every day; numbers of points, edges, particles are at most 40:
+   corners           every sixth corner, from another one every day; numbers of points, edges, particles are at most 40:
                      what is asked of memory stays small
    corners 40        all of them
    corners 1000      at most 1000 points, edges, particles
@@ -228,7 +228,7 @@ int main(int count, char **arguments)
             made += corners_of(&gm_settings_parameters[i], most, corners + made);
         }
         const long before = opened;
-        for (size_t i = all ? 0 : day % 3; i < made; i += all ? 1 : 3) {
+        for (size_t i = all ? 0 : day % 6; i < made; i += all ? 1 : 6) {
             const struct corner *both[2] = {&corners[i]};
             put_line(bases[b], both, 1);
             try_schemes();

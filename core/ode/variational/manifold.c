@@ -207,13 +207,17 @@ void gm_manifold_field(const struct gm_problem *problem, const double *y, double
     const size_t n = problem->n;
     double *scratch =
         gm_has_action(problem) ? calloc(gm_manifold_scratch_size(problem) + 2 * n, sizeof *scratch) : NULL;
-    double *state = scratch, *rates = scratch ? scratch + n : NULL;
+    for (size_t i = 0; i < n * m && !scratch; i++) {
+        f[i] = NAN;
+    }
+    if (!scratch) {
+        return;
+    }
+    double *state = scratch, *rates = scratch + n;
+    const struct gm_manifold manifold = gm_manifold_lay(problem, scratch + 2 * n);
     for (size_t l = 0; l < m; l++) {
-        const struct gm_manifold manifold = gm_manifold_lay(problem, scratch ? scratch + 2 * n : NULL);
-        if (scratch) {
-            gm_member_take(y, state, n, m, l);
-        }
-        const bool found = scratch && accelerate(&manifold, state, rates);
+        gm_member_take(y, state, n, m, l);
+        const bool found = accelerate(&manifold, state, rates);
         for (size_t i = 0; i < n; i++) {
             f[i * m + l] = found ? rates[i] : NAN;
         }
