@@ -209,8 +209,8 @@ static void write_call(const struct writer *writer, const struct gm_node *here)
     const gm_node_id b = row->arity == 2 ? here->b : GM_NO_NODE;
     if (here->operation ==
         GM_OPERATION_BELOW) { /* Iverson's bracket, in the derivative of |x|: 1 if true, else 0 */
-        write_pair(writer, writer->latex ? "\\left[" : "", here->a, " < ", b,
-                   writer->latex ? "\\right]" : "");
+        write_pair(writer, writer->latex ? "\\left[" : "if(", here->a, " < ", b,
+                   writer->latex ? "\\right]" : ", 1, 0)");
         return;
     }
     const bool root = writer->latex && here->operation == GM_OPERATION_SQRT,

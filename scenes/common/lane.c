@@ -83,8 +83,7 @@ static void look_at_start(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
-/* `near`: the last value of an angle */
-static double observe(const struct gm_observable *observable, const struct gm_view *view, double near)
+double gm_view_observe(const struct gm_observable *observable, const struct gm_view *view, double near)
 {
     const double value = gm_observe(observable, view);
     if (observable->period > 0) {
@@ -102,7 +101,7 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable)
     const unsigned long refusals = gm_memory_refusals();
     /* observables computed on request are never angles */
     const double near = observable < lane->scene->observable_count ? lane->angles[observable] : 0,
-                 value = observe(gm_scene_observable_at(lane->scene, observable), &view, near);
+                 value = gm_view_observe(gm_scene_observable_at(lane->scene, observable), &view, near);
     return gm_memory_refusals() == refusals ? value : NAN;
 }
 
@@ -228,7 +227,7 @@ static void follow_angles(struct gm_lane *lane, const struct gm_view *view, cons
         const struct gm_observable *observable = &lane->scene->observables[i];
         for (int64_t k = 0; observable->period > 0 && k < (trace ? trace->count : 1); k++) {
             const struct gm_view there = trace ? gm_view_along(view, trace, k + 1) : *view;
-            const double angle = observe(observable, &there, lane->angles[i]);
+            const double angle = gm_view_observe(observable, &there, lane->angles[i]);
             lane->angles[i] = isfinite(angle) ? angle : lane->angles[i];
         }
     }
@@ -348,12 +347,12 @@ void gm_lane_record(struct gm_lane *lane)
     lane->followed = lane->run->steps;
     follow_angles(lane, &view, NULL);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
+        values[i] = gm_view_observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }
     const struct gm_scene *scene = lane->scene;
     const size_t shown = gm_lane_asked_shown(lane);
     for (size_t i = 0; i < scene->asked_count; i++) {
-        values[scene->observable_count + i] = i < shown ? observe(&scene->asked[i], &view, 0) : NAN;
+        values[scene->observable_count + i] = i < shown ? gm_view_observe(&scene->asked[i], &view, 0) : NAN;
     }
     gm_history_add(&lane->history, view.t, view.run->steps, values);
     record_tracks(lane, &view);

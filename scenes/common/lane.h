@@ -64,6 +64,8 @@ void gm_lane_close(void *lane);
 
 struct gm_view gm_lane_view(const struct gm_lane *lane);
 
+/* The value of an observable in a view of a lane, of an error over its divisor; an angle is taken nearest to `near`. */
+double gm_view_observe(const struct gm_observable *observable, const struct gm_view *view, double near);
 /* The current value of an observable; NAN when out of memory. */
 double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 

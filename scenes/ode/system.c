@@ -642,7 +642,7 @@ static const char *title_of(struct gm_system_scene *system_scene)
         free(formula);
     }
     return whole && strlen(text) <= SHORT ? gm_arena_print(system_scene->arena, "%s", text)
-                                          : "A user-defined system";
+                                          : "A user's system";
 }
 
 static void make(struct gm_system_making *making)
@@ -656,7 +656,7 @@ static void make(struct gm_system_making *making)
     gm_arena_need(arena, gm_user_model_open(&system_scene->model, system));
     make_rows(system_scene, typed);
     gm_system_describe(system_scene, (struct gm_scene){.title = title_of(system_scene),
-                                                       .blurb = "A user-defined system.",
+                                                       .blurb = "A user's system.",
                                                        .time = "the unit of its equations",
                                                        .idle = idle,
                                                        .setup = setup,

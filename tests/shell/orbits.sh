@@ -145,6 +145,8 @@ status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1
 grep -q '^  multipliers  *none$' out && grep -q '^  kind  *none$' out && ! grep -q structure out || fail "what an equilibrium has: $(cat out)"
 status 2 orbit lorenz period=.3 --json
 holds 'd["status"] == "no-convergence" and d["residual"] > 1e-6 and d["multipliers"] == []'
+grep -q 'start closer to one' err || fail "the sentence of an orbit that does not close: $(cat err)"
+refused 1 "has more than 1000000000 steps" orbit lorenz period=1e300
 refused 1 "fix=zz is not a component; did you mean z" orbit lorenz fix=zz
 refused 1 "period=-1 is not a number above 0" orbit lorenz period=-1
 refused 1 "period= is a word of the flow" orbit lorenz steps=3 period=1
@@ -212,6 +214,12 @@ status 0 sweep system "$logistic" r=3.2,5 x=0.5 scheme=explicit-euler dt=1 steps
 [ "$(grep -c ',ok,' out)" = 3 ] && grep -q ',blow-up,.*,,,$' out || fail "a run that fails: $(cat out)"
 status 0 sweep system "$logistic" r=3..4:30 x=.3,.5 scheme=explicit-euler dt=1 steps=300 --values x:20 -o panels.svg
 status 0 again panels.svg
+# an error is one, not the quantity itself
+status 0 sweep kepler eccentricity=0,0.5 scheme=verlet until=50 --values energy_error:1 --measure energy_error
+awk -F, 'NR > 1 && ($12 != $15 || $15 > 0.1) { exit 1 }' out || fail "errors as values: $(cat out)"
+# what is printed of a derivative of max can be read
+status 0 list system 'H=p^2/2 + max(q, 0)^2' q=1 p=0
+grep -qF "p' = -2*max(q, 0)*if(0 < q, 1, 0)" out || fail "the derivative of max: $(cat out)"
 refused 1 "give a key a range" sweep lorenz --values x:10
 refused 1 "is not NAME:K" sweep lorenz rho=1,2 --values x
 refused 1 "did you mean z" sweep lorenz rho=1,2 --values zz:3

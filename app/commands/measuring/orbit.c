@@ -121,7 +121,11 @@ static void choose_period(struct work *work, struct gm_problem *problem)
                           "the motion does not return to the plane through its start normal to f; start "
                           "closer to the orbit, or give its period=");
     }
-    orbit->steps = (int64_t)fmin(fmax(1, round(orbit->period / dt)), MOST_STEPS);
+    const double steps = fmax(1, round(orbit->period / dt));
+    gm_command_end_if(options, !(steps <= MOST_STEPS), GM_EXIT_USAGE,
+                      "a period of %g has more than %d steps of dt=%g: give a longer dt=", orbit->period,
+                      MOST_STEPS, dt);
+    orbit->steps = (int64_t)steps;
 }
 
 static size_t structure_of(const struct work *work)
@@ -320,8 +324,10 @@ int gm_command_orbit(const struct gm_options *options)
         print_text(work);
     }
     if (work->orbit.status == GM_PERIODIC_EQUILIBRIUM) {
-        gm_complain(
-            "the motion rests there, or comes to rest: an orbit moves; start farther away, or without fix=");
+        gm_complain("the motion rests there, or comes to rest: an orbit moves; start farther away%s",
+                    work->held ? ", or without fix=" : "");
+    } else if (work->orbit.status == GM_PERIODIC_NO_CONVERGENCE) {
+        gm_complain("Newton's method found no orbit that closes: start closer to one, or give its period=");
     }
     int status = work->orbit.status == GM_PERIODIC_FOUND ? GM_EXIT_OK : GM_EXIT_NUMERICAL;
     if (status == GM_EXIT_OK && (options->save || options->output || options->out)) {

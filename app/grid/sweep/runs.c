@@ -332,13 +332,15 @@ static void open_values(struct gm_sweep *sweep, const char *values, const char *
     sweep->at = places[sweep->place];
 }
 
-/* Returns the value of a view, of its last member if it is a component. */
+/* Returns the value of a view, of its last member if it is a component. Angles are as they are, within a turn. */
 static double value_of(const struct gm_sweep *sweep, const struct gm_view *view)
 {
     const size_t components = view->problem->n - 2 * view->problem->passive, m = view->problem->m;
-    return sweep->number < components
-               ? view->state[sweep->number * m + m - 1]
-               : gm_observe(gm_scene_observable_at(sweep->scene, sweep->number - components), view);
+    if (sweep->number < components) {
+        return view->state[sweep->number * m + m - 1];
+    }
+    const struct gm_observable *row = gm_scene_observable_at(sweep->scene, sweep->number - components);
+    return row->error ? gm_view_observe(row, view, 0) : gm_observe(row, view);
 }
 
 static void record(const struct gm_view *view, double *entry)
