@@ -120,12 +120,12 @@ static unsigned char *deflate_rows(const struct gm_png *image, size_t *size)
     unsigned char *packed = bound ? malloc(bound) : NULL;
     *size = 0;
     for (size_t y = 0; rows && packed && y < height; y++) {
-        const unsigned char *from = image->pixels + y * row;
+        const unsigned char *from = image->pixels + y * row, *above = y > 0 ? from - row : from;
         unsigned char *to = rows + y * (row + 1);
         *to++ = differences ? PNG_FILTER_VALUE_UP : PNG_FILTER_VALUE_NONE;
         memcpy(to, from, row);
         for (size_t x = 0; differences && y > 0 && x < row; x++) {
-            to[x] = (unsigned char)(from[x] - image->pixels[(y - 1) * row + x]);
+            to[x] = (unsigned char)(from[x] - above[x]);
         }
     }
     if (rows && packed) {

@@ -478,7 +478,10 @@ static void schemes_are_certified_on_somebodys_form(void **unused)
         double length;
         bool mass; /* of the second component */
     } cases[] = {{BREATHER, 40, false}, {KDV, 50, true}};
-    enum { GRIDS = 4, LAST = 3 }; /* boxes of four stages take long */
+    enum {
+        GRIDS = 4,
+        LAST = 3
+    }; /* boxes of four stages take long, and those of three for the second equation */
     for (size_t which = 0; which < GM_COUNT(cases); which++) {
         struct typed typed[GRIDS];
         struct gm_certified_system system[GRIDS];

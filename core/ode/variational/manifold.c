@@ -207,10 +207,10 @@ void gm_manifold_field(const struct gm_problem *problem, const double *y, double
     const size_t n = problem->n;
     double *scratch =
         gm_has_action(problem) ? calloc(gm_manifold_scratch_size(problem) + 2 * n, sizeof *scratch) : NULL;
-    for (size_t i = 0; i < n * m && !scratch; i++) {
-        f[i] = NAN;
-    }
     if (!scratch) {
+        for (size_t i = 0; i < n * m; i++) {
+            f[i] = NAN;
+        }
         return;
     }
     double *state = scratch, *rates = scratch + n;
