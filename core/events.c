@@ -116,19 +116,22 @@ static void look_at(const struct gm_problem *problem, const double *times, const
 /* The size of the sign with which an event waits for a motion that rests on g = 0. */
 static const double AT_REST = 0.5;
 
+/* The part of a step that is too short for a g to leave 0. */
+static const double SHORTEST = 1e-6;
+
 static double sign_of(double value)
 {
     return (value > 0) - (value < 0);
 }
 
-/* The sign of dg/dt ahead, of the motion with these modes. */
-static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look)
+/* The sign of dg/dt ahead, of the motion with these modes; `later` after the look, as a part of the step. */
+static double sign_of_rate(const struct gm_event_step *step, size_t event, const double *look, double later)
 {
     const double *modes = gm_events_modes(step->problem, step->memory);
     const struct gm_problem *motion = step->motion(step->data, modes);
-    const double sign =
-        motion ? sign_of(step->problem->events->rate(step->problem, modes, motion, event, look)) : 0;
-    return step->dt < 0 ? -sign : sign;
+    const double rate =
+        motion ? step->problem->events->rate(step->problem, modes, motion, event, look, later * step->dt) : 0;
+    return step->dt < 0 ? -sign_of(rate) : sign_of(rate);
 }
 
 static enum gm_event_form form_of(const struct gm_event_step *step, size_t event)
@@ -137,7 +140,8 @@ static enum gm_event_form form_of(const struct gm_event_step *step, size_t event
 }
 
 /* The value whose sign changes, from that of g. Whole numbers of g are zeros of (g - k)(k + 1 - g), which is above 0 until
-   g leaves its interval at either end. A g that jumps to 0 is there. */
+   g leaves its interval at either end. A g that jumps to 0 is there. Where the g of an event has no value, as that of
+   sqrt(y) = 0 beyond y = 0, it counts as passed. */
 static double watched_value(const struct gm_event_step *step, size_t event, double g)
 {
     const double mode = step->memory[event];
@@ -147,7 +151,7 @@ static double watched_value(const struct gm_event_step *step, size_t event, doub
     case GM_AT_JUMP:
         return mode * g > 0 ? mode : -mode;
     default:
-        return g;
+        return isnan(g) && event < step->problem->events->written ? -mode : g;
     }
 }
 
@@ -184,9 +188,9 @@ static void choose_side(const struct gm_event_step *step, size_t event, const do
 {
     double *mode = &step->memory[event];
     *mode = 1;
-    const double above = sign_of_rate(step, event, look);
+    const double above = sign_of_rate(step, event, look, 0);
     *mode = -1;
-    const double below = sign_of_rate(step, event, look);
+    const double below = sign_of_rate(step, event, look, 0);
     *mode = above > 0 || above * below < 0 ? 1 : fmin(below, 0);
 }
 
@@ -197,7 +201,7 @@ static bool leads_back(const struct gm_event_step *step, size_t event, const dou
     if (form_of(step, event) == GM_AT_WHOLE) {
         away = g - away < 0.5 ? 1 : -1;
     }
-    return sign_of_rate(step, event, look) == -away;
+    return sign_of_rate(step, event, look, 0) == -away;
 }
 
 /* Lets an event wait with the sign of g in this state; on g = 0 the motion decides, by where it leads. If it rests there
@@ -209,7 +213,7 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
     double *mode = &step->memory[event];
     if (form_of(step, event) == GM_AT_WHOLE) {
         *mode = floor(g);
-        *mode -= *mode == g && sign_of_rate(step, event, look) < 0;
+        *mode -= *mode == g && sign_of_rate(step, event, look, 0) < 0;
     } else if (fabs(g) > nothing) {
         *mode = sign_of(g);
     } else if (form_of(step, event) == GM_AT_JUMP) {
@@ -217,7 +221,7 @@ static void wait_ahead(const struct gm_event_step *step, size_t event, const dou
     } else if (event >= step->problem->events->written) {
         choose_side(step, event, look);
     } else {
-        const double ahead = sign_of_rate(step, event, look);
+        const double ahead = sign_of_rate(step, event, look, 0);
         *mode = ahead != 0 ? ahead : sign_of(*mode) * AT_REST;
     }
 }
@@ -267,7 +271,8 @@ int64_t gm_events_near(const struct gm_event_step *step, const double *states, c
     for (size_t i = 0; i < step->problem->events->count; i++) {
         const bool undecided = is_watched(step, i) && awaited(step, i) == 0;
         for (size_t k = 0; k < first; k++) {
-            first = has_passed(step, i, g[i * most + k]) || (undecided && g[i * most + k] != 0) ? k : first;
+            const double value = g[i * most + k];
+            first = has_passed(step, i, value) || (undecided && (value > 0 || value < 0)) ? k : first;
         }
     }
     return (int64_t)first;
@@ -368,11 +373,19 @@ static bool take_sides(struct rest *rest)
     return true;
 }
 
+/* Places closer than this are one. */
+static const double TOGETHER = 4e-15;
+
 /* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
 static const double NOTHING = 1e-6;
 
-/* The part of a step that is too short for a g to leave 0. */
-static const double SHORTEST = 1e-6;
+/* Returns true if the g of rest->event, which has no value at the end, is 0 just before this place. */
+static bool ends_at_0(struct rest *rest, double place)
+{
+    const double before = fmax(place - 2 * TOGETHER, rest->low);
+    return !isnan(value_after(rest, before)) &&
+           fabs(rest->values[rest->event]) <= NOTHING * rest->sizes[rest->event];
+}
 
 /* Finds where each g passes 0 next. Returns the first of these fractions; infinity: none does; NaN: it cannot be found. */
 static double first_place(struct rest *rest)
@@ -390,6 +403,10 @@ static double first_place(struct rest *rest)
         }
         if (isnan(place)) {
             return NAN;
+        }
+        if (isnan(rest->at_end[i]) && !ends_at_0(rest, place)) {
+            step->memory[i] = 0;
+            continue;
         }
         rest->places[i] = place;
         first = fmin(first, place);
@@ -412,9 +429,6 @@ static void book(struct rest *rest)
         booked[i] += values[quantities + i] - values[i];
     }
 }
-
-/* Places closer than this are one. */
-static const double TOGETHER = 4e-15;
 
 /* Returns true if a g passes 0 in step->to. */
 static bool passes_here(const struct rest *rest, size_t event)
@@ -440,7 +454,8 @@ static bool is_caused(const struct rest *rest, size_t event)
     const struct gm_event_step *step = rest->step;
     const double g = rest->values[event], after = rest->new_values[event], size = rest->sizes[event],
                  nothing = NOTHING * fabs(after - g);
-    const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST;
+    const bool begins =
+        step->first && rest->t == step->t && rest->place < SHORTEST && rest->at_low[event] != 0;
     if (!is_watched(step, event) || begins) {
         return false;
     }
@@ -448,8 +463,8 @@ static bool is_caused(const struct rest *rest, size_t event)
         return passes_here(rest, event) || (after != g && has_passed(step, event, after));
     }
     const bool pole = rest->place > 0 && (isinf(size) || fabs(g) > NOTHING * size),
-               leaves =
-                   fabs(g) <= nothing && sign_of_rate(step, event, rest->look) * awaited(step, event) < 0;
+               leaves = fabs(g) <= fmax(nothing, isinf(size) ? 0 : NOTHING * size) &&
+                        sign_of_rate(step, event, rest->look, 0) * awaited(step, event) < 0;
     return (passes_here(rest, event) && !pole) || (after != g && (fabs(after) <= nothing || leaves));
 }
 
@@ -476,8 +491,8 @@ static void find_causes(struct rest *rest)
         rest->causes[i] = NAN;
         if (is_caused(rest, i)) {
             rest->causes[i] = (double)(passes ? i : turned);
-        } else if (passes || rest->new_values[i] != rest->values[i]) {
-            pass_by(rest, i, rest->new_values[i]);
+        } else if (passes || fabs(rest->new_values[i] - rest->values[i]) > NOTHING * rest->sizes[i]) {
+            pass_by(rest, i, rest->new_values[i]); /* a g without a jump, as y |y|, still has to leave 0 */
         }
     }
     memcpy(step->memory + events->written, rest->modes,
@@ -507,6 +522,25 @@ static void turn_back(struct rest *rest)
     }
 }
 
+/* Lets an event wait in the state that it has led to. Where g is flat, as y |y| at 0, dg/dt there is round-off: the motion
+   is back on the side that it came from if dg/dt has that sign a short time later. A motion that the event has not stopped
+   does not rest; the end of the step decides. */
+static void wait_beyond(struct rest *rest, size_t event, double g, double nothing)
+{
+    const struct gm_event_step *step = rest->step;
+    double *mode = &step->memory[event];
+    const double side = sign_of(*mode);
+    wait_ahead(step, event, rest->after, g, nothing);
+    if (fabs(g) > nothing || form_of(step, event) == GM_AT_JUMP) {
+        return;
+    }
+    if (fabs(*mode) == AT_REST && sign_of_rate(step, event, rest->look, 0) == 0) {
+        *mode = 0;
+    } else if (*mode == -side && sign_of_rate(step, event, rest->after, SHORTEST) == side) {
+        *mode = side;
+    }
+}
+
 /* Follows g that have jumped at an event or a break: switches are settled, and not passed here; other events wait in the
    state after an event. A g that only jumps has now reached 0 or passed it: the event happens at once, unless it has. One
    that is about to happen still does. */
@@ -519,7 +553,7 @@ static void wait_after(struct rest *rest, size_t event)
         const double g = rest->values[i], after = rest->new_values[i], size = rest->sizes[i];
         double *cause = &rest->causes[i];
         if (i == event && i < written) { /* a g that jumps is not 0 just beyond */
-            wait_ahead(step, i, rest->after, after, fmin(fabs(g), NOTHING * size) + roundoff * size);
+            wait_beyond(rest, i, after, fmin(fabs(g), NOTHING * size) + roundoff * size);
         } else if (i >= written && after != g) {
             rest->places[i] = *cause = NAN;
         } else if (event < written && after != g && !(*cause >= 0)) {
@@ -579,7 +613,10 @@ static enum gm_event_outcome change(struct rest *rest, size_t event)
     part.ahead = step->motion(step->data, rest->modes);
     part.beyond = step->motion(step->data, modes);
     if (part.ahead && part.beyond) {
-        events->carry_within(problem, &part, step->to);
+        if (!events->carry_within(problem, &part, step->to)) {
+            step->turned_at = rest->at;
+            return GM_EVENTS_NO_TANGENT;
+        }
         look_at(problem, &rest->at, step->to, 1, rest->after);
         if (step->witness.see) {
             step->witness.see(step->witness.data, &part);
@@ -680,7 +717,7 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     find_values(&rest, step->end_time, step->end, rest.at_end);
     find_values(&rest, step->t, step->begin, rest.at_low);
     for (size_t i = 0; i < count; i++) {
-        rest.sizes[i] = fabs(rest.at_low[i]) + fabs(rest.at_end[i]);
+        rest.sizes[i] = fabs(rest.at_low[i]) + (isnan(rest.at_end[i]) ? 0 : fabs(rest.at_end[i]));
     }
     memcpy(step->from, step->begin, step->size * sizeof *step->from);
     enum gm_event_outcome so_far = GM_EVENTS_NONE;

@@ -33,17 +33,18 @@ struct gm_events {
                    double *values);
     /* Returns true if the conditions of an event hold. Writes the n components after it, unless y is NULL. */
     bool (*change)(const struct gm_problem *problem, size_t event, const double *look, double *y);
-    /* Returns dg/dt along a motion, of the problem or with frozen switches. */
+    /* Returns dg/dt along a motion, of the problem or with frozen switches; a short `time` after the look, where the rates
+       of the look lead. */
     double (*rate)(const struct gm_problem *problem, const double *modes, const struct gm_problem *motion,
-                   size_t event, const double *look);
+                   size_t event, const double *look, double time);
     /* v := S v, n numbers, for a small error v of the state before the event,
            S = DR + (f+ - DR f- - dR/dt) grad g' / (grad g . f- + dg/dt)
        with the change y+ = R(y-, t), the fields f- and f+ before and after it, and the g whose passage lets it happen.
        Returns false where the motion only touches g = 0, or there is no such g. M. A. Aizerman & F. R. Gantmacher,
        Quart. J. Mech. Appl. Math. 11 (1958) 225. */
     bool (*carry)(const struct gm_problem *problem, const struct gm_event_part *part, double *v);
-    /* The same for all tangents that the state y after an event holds. */
-    void (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
+    /* The same for all tangents that the state y after an event holds, if any. */
+    bool (*carry_within)(const struct gm_problem *problem, const struct gm_event_part *part, double *y);
     /* Returns the problem whose breaks are frozen in the first of these modes. It and the one that was returned before
        stay valid until the next call; *frozen, NULL at first, keeps them until `melt`. NULL when out of memory. */
     const struct gm_problem *(*freeze)(const struct gm_problem *problem, void **frozen, const double *modes);
@@ -113,8 +114,9 @@ enum gm_event_outcome {
     GM_EVENTS_HAPPENED,
     GM_EVENTS_ENDED,
     GM_EVENTS_FAILED,
-    GM_EVENTS_MANY,
     GM_EVENTS_NO_VALUE,
+    GM_EVENTS_NO_TANGENT,
+    GM_EVENTS_MANY,
     GM_EVENTS_SLIDE
 };
 
@@ -131,7 +133,7 @@ int64_t gm_events_near(const struct gm_event_step *step, const double *states, c
 const double *gm_events_modes(const struct gm_problem *problem, const double *memory);
 /* Finds the events of a step, in order, with the changes that they make. GM_EVENTS_ENDED: an event ends the run at
    `reached`, in the state `end`; GM_EVENTS_MANY: events accumulate there, or if `turned` is given a step has too many;
-   GM_EVENTS_NO_VALUE: an event changes the state to one that is not finite; GM_EVENTS_SLIDE: after a break the rate
+   GM_EVENTS_NO_VALUE: an event changes the state to one that is not finite; GM_EVENTS_NO_TANGENT: it leaves no tangents; GM_EVENTS_SLIDE: after a break the rate
    points back. */
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step);
 

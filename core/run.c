@@ -442,11 +442,12 @@ static void pass_events(struct gm_run *run, double dt)
     if (step.parts) {
         reset_workspace(run);
     }
-    if (outcome == GM_EVENTS_FAILED || outcome == GM_EVENTS_NO_VALUE) {
-        run->status = refused                         ? GM_OUT_OF_MEMORY
-                      : outcome == GM_EVENTS_NO_VALUE ? GM_BLOW_UP
-                      : run->status == GM_OK          ? GM_NO_CONVERGENCE
-                                                      : run->status;
+    if (outcome >= GM_EVENTS_FAILED && outcome <= GM_EVENTS_NO_TANGENT) {
+        run->status = refused                           ? GM_OUT_OF_MEMORY
+                      : outcome == GM_EVENTS_NO_VALUE   ? GM_BLOW_UP
+                      : outcome == GM_EVENTS_NO_TANGENT ? GM_NO_TANGENT
+                      : run->status == GM_OK            ? GM_NO_CONVERGENCE
+                                                        : run->status;
         run->current = before;
         run->n--;
         run->steps--;

@@ -38,7 +38,7 @@ struct gm_run {
     double *trace;    /* gm_task.trace of the steps that are being made; else NULL */
     bool traced;      /* the last steps are in it */
     size_t turned;    /* the event or break at which the run has failed; SIZE_MAX: none */
-    double turned_at; /* the value of its g; after GM_BLOW_UP its time */
+    double turned_at; /* the value of its g; after GM_BLOW_UP and GM_NO_TANGENT its time */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). Returns NULL when out of memory. The problem

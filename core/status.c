@@ -14,6 +14,7 @@ const char *gm_status_name(enum gm_status status)
                                         [GM_OUT_OF_MEMORY] = "out-of-memory",
                                         [GM_STEP_TOO_SMALL] = "step-too-small",
                                         [GM_EVENTS_ACCUMULATE] = "events-accumulate",
-                                        [GM_SLIDING] = "sliding"};
+                                        [GM_SLIDING] = "sliding",
+                                        [GM_NO_TANGENT] = "no-tangent"};
     return (unsigned)status < GM_COUNT(names) ? names[status] : "unknown";
 }

@@ -13,6 +13,8 @@ enum gm_status {
     GM_STEP_TOO_SMALL,    /* step size control led to round-off of the time, or to too many steps */
     GM_EVENTS_ACCUMULATE, /* events follow each other in ever shorter times */
     GM_SLIDING,           /* the rates on both sides of a break lead to it */
+    GM_NO_TANGENT,        /* an event has no saltation matrix, which would lead tangents on */
+    GM_STATUSES
 };
 
 /* The reason why an implicit equation was not solved. */

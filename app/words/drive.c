@@ -329,6 +329,12 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
                 : "a step passes more than 1000 breaks, up to %.120s = %g at t = %.10g: take a shorter dt";
         snprintf(text, size, sentence, events->surfaces[run->turned - events->written], run->turned_at,
                  run->t);
+    } else if (run->status == GM_NO_TANGENT) {
+        snprintf(
+            text, size,
+            "the tangents end at the event at t = %.10g: the motion only touches its surface, or another "
+            "event causes it",
+            run->turned_at);
     } else if (run->status == GM_EVENTS_ACCUMULATE && run->turned != SIZE_MAX) {
         snprintf(text, size,
                  "a step passes its events more than 1000 times, up to t = %.10g: take a shorter dt", run->t);

@@ -320,6 +320,7 @@ void gm_play_watch_frozen(struct gm_play *play)
             [GM_STEP_TOO_SMALL] = "needs steps that are too small",
             [GM_EVENTS_ACCUMULATE] = "has events without end",
             [GM_SLIDING] = "slides along a switch",
+            [GM_NO_TANGENT] = "has an event without tangents",
         };
         say(play, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
             sentences[latest->run->status], latest->run->t,

@@ -124,7 +124,7 @@ const char *gm_cell_word(const struct gm_grid *grid, const struct gm_grid_cell *
 
 char gm_cell_letter(const struct gm_grid_cell *cell)
 {
-    static const char failures[GM_SLIDING + 1] = {
+    static const char failures[GM_STATUSES] = {
         [GM_BLOW_UP] = 'B', [GM_NO_CONVERGENCE] = 'N', [GM_MESH_CROSSING] = 'M'};
     if (!cell->tried || cell->verdict != GM_FAILED) {
         return cell->tried ? verdicts[cell->verdict].letter : '?';

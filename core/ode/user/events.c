@@ -131,13 +131,22 @@ static bool open_saltation(const struct gm_problem *problem, const double *modes
     return true;
 }
 
+/* gm_events.rate */
 static double rate(const struct gm_problem *problem, const double *modes, const struct gm_problem *motion,
-                   size_t event, const double *look)
+                   size_t event, const double *look, double time)
 {
-    struct saltation saltation;
-    const double sum =
-        open_saltation(problem, modes, motion, event, look, &saltation) ? saltation.along_rates[0] : NAN;
-    free(saltation.slopes);
+    struct saltation now, later = {0};
+    double sum = NAN;
+    if (open_saltation(problem, modes, motion, event, look, &now)) {
+        for (size_t c = 0; c <= problem->n; c++) {
+            now.v[c] = look[c] + time * (c < problem->n ? now.before[c] : 1);
+        }
+        sum = time == 0                                                      ? now.along_rates[0]
+              : open_saltation(problem, modes, motion, event, now.v, &later) ? later.along_rates[0]
+                                                                             : NAN;
+        free(later.slopes);
+    }
+    free(now.slopes);
     return sum;
 }
 
@@ -190,15 +199,10 @@ static bool carry(const struct gm_problem *problem, const struct gm_event_part *
     return gm_user_data_of(problem)->model->system->tangents == 0 && carry_all(problem, part, v, v);
 }
 
-/* NaN where the motion only touches g = 0. */
-static void carry_within(const struct gm_problem *problem, const struct gm_event_part *part, double *y)
+static bool carry_within(const struct gm_problem *problem, const struct gm_event_part *part, double *y)
 {
-    const struct gm_user_system *system = gm_user_data_of(problem)->model->system;
-    if (system->tangents > 0 && !carry_all(problem, part, part->before, y)) {
-        for (size_t c = 0; c < gm_system_motion(system); c++) {
-            y[gm_system_component(system, c, 1)] = NAN;
-        }
-    }
+    return gm_user_data_of(problem)->model->system->tangents == 0 ||
+           carry_all(problem, part, part->before, y);
 }
 
 static void conserved(const struct gm_problem *problem, const double *look, double *quantities)
