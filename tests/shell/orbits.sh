@@ -96,6 +96,30 @@ holds 'near(d["multipliers"][3][0], .00350381, 3e-7) and all(near(complex(*m), 1
 # a circle in a field of force has the period 2 pi; its multipliers are 1, three of them by the two invariants
 status 0 orbit kepler --json
 holds 'near(d["period"], 2 * math.pi, 1e-9) and d["by_structure"] >= 2 and all(near(complex(*m), 1, 1e-4) for m in d["multipliers"])'
+# a root of order four, which rounding splits: digits below its error are not printed
+holds 'd["stability"] == "parabolic"'
+status 0 orbit kepler
+grep -q '^  multipliers  *1, 1, 1, 1$' out || fail "a multiple root: $(cat out)"
+# of every size: a circle of radius s, and van der Pol's cycle
+for s in 3e-10 1 1e8; do
+    status 0 orbit system 'rate=x = y, y = -x' x=$s y=0 --json
+    holds "near(d['period'], 2 * math.pi, 1e-12) and d['start'] == [$s, 0]"
+    status 0 orbit system "rate=x = y, y = (1 - (x/$s)^2)*y - x" x=2*$s y=0 --json
+    holds "near(d['period'], 6.663286859323133, 1e-11) and near(d['start'][0] / $s, 2.0086198609, 1e-9) and near(d['multipliers'][1][0], 8.5969506360e-4, 1e-12)"
+done
+# far from the origin: its radius is 1e-6, its place 5
+status 0 orbit system 'rate=x = 1e6*y, y = -1e6*(x - 5)' x=5.000001 y=0 --json
+holds 'near(d["period"], 2e-6 * math.pi, 1e-15)'
+# an angle that turns: the period of x' = 1 - sin(x)/2 is 2 pi/sqrt(3/4), of the pendulum an elliptic integral
+printf 'rate: x = 1 - sin(x)/2\nangle: x\nstart: x = 0\n' >angle.system
+status 0 orbit ./angle.system --json
+holds 'near(d["period"], 2 * math.pi / math.sqrt(.75), 1e-11)'
+printf 'coordinates: q\nH: p_q^2/2 - cos(q)\nangle: q\nstart: q = 0, p_q = 2.5\n' >angle.system
+status 0 orbit ./angle.system --json
+holds 'near(d["period"], 3.19248444426357, 1e-11) and d["stability"] == "parabolic"'
+# digits that are noise are not printed
+status 0 orbit lorenz x=-13.7636 y=-19.5788 z=27 fix=z
+grep -q '^  multipliers  *4.712947273, 1, 1e-10$' out || fail "digits of a small multiplier: $(cat out)"
 # shaken: the period is that of the force, and det M = exp(-.3 T)
 status 0 orbit duffing a=.3 period=2*pi/1.2 --json
 holds 'near(abs(complex(*d["multipliers"][0]) * complex(*d["multipliers"][1])), math.exp(-.3 * 2 * math.pi / 1.2), 1e-10) and d["residual"] < 1e-10'
@@ -154,6 +178,13 @@ refused 1 "orbit follows one run" orbit lorenz x=1,2
 refused 1 "has no derivative" orbit lorenz scheme=dopri5
 refused 1 "it has constraints" orbit cartesian-pendulum
 refused 1 "period= gives the period" orbit duffing
+refused 1 "1.234 is not a period of the equations: at the same state the rate of p is" orbit duffing period=1.234
+refused 1 "5 is not a period of the equations" orbit duffing period=5
+refused 1 "is steps times dt, is not a period" orbit duffing scheme=midpoint dt=.05 steps=100
+refused 2 "the start is an equilibrium" orbit system 'H=p^2/2 - cos(q)' q=pi p=0
+refused 2 "ends before it returns: the implicit step after t = 0.99" orbit system 'rate=x = x^2' x=1
+status 2 orbit system 'rate=x = x^2' x=1 period=3
+grep -q 'no orbit that closes: the implicit step after t = 0.99' err || fail "the reason of a run that ends: $(cat err)"
 refused 1 "not a .system file" orbit ./vdp.system --save cycle.npz
 refused 2 "does not return" orbit system 'rate=x=-x' x=1
 refused 1 "orbit does not follow burgers" orbit burgers
