@@ -33,6 +33,13 @@ status 0 run system 'rate=x = -x + y, y = -2*y + z, z = -3*z' x=1 y=1 z=1 scheme
 holds 'all(near(o["lyapunov%d" % k], -k, 1e-3) for k in (1, 2, 3))'
 status 0 run duffing a=0 until=200 --measure lyapunov_spectrum --json
 holds 'near(o["lyapunov1"], 0, 1e-9) and near(o["lyapunov_sum"], -.3, 1e-5)'
+# the mean divergence has ln |det S| of events and breaks: a wall takes 0.9^2 of the area at each of three bounces; across
+# x = 0 the rate falls from 3 to 1
+printf 'coordinates: q\nH: p_q^2/2 + q^2/2 + 2*q\nevent: q = 0; p_q = -0.9*p_q\nstart: q = 1, p_q = 0.3\n' >wall.system
+status 0 run ./wall.system scheme=gauss8 dt=.05 until=5 --measure lyapunov_spectrum --json
+holds 'near(o["divergence_mean"], 6*math.log(.9)/5, 1e-10) and near(o["lyapunov_sum"], 6*math.log(.9)/5, 1e-10)'
+status 0 run system 'rate=x = 2 - sign(x)' x=-1 scheme=rk4 dt=.1 until=10 --measure lyapunov_spectrum --json
+holds 'near(o["divergence_mean"], -math.log(3)/10, 1e-12) and near(o["lyapunov_sum"], -math.log(3)/10, 1e-12)'
 # a symplectic map: the sum is 0, and exponents come in pairs
 status 0 run henon-heiles energy=1/8 q2=-.25 p2=0 scheme=verlet until=5000 --measure lyapunov_spectrum --json
 holds 'near(o["lyapunov_sum"], 0, 1e-9) and near(o["lyapunov1"] + o["lyapunov4"], 0, .004) and o["lyapunov1"] > .02'
