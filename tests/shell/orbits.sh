@@ -226,6 +226,11 @@ for lines in 1 14 20 25 30; do
     tree --table tree.csv
     [ "$(wc -l <tree.csv)" = 37 ] && python3 tree.py || fail "a table that was cut after line $lines"
 done
+# a table of other values, or at another place, is left as it is
+cp tree.csv kept.csv
+refused 3 "not that of run 0 with --values x:5 --at step; it is left as it is" sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:5 --table tree.csv
+refused 3 "not that of run 0 with --values x:12 --at maximum" sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:12 --at maximum --table tree.csv
+cmp -s tree.csv kept.csv || fail "a table of other values was changed"
 tree --table shards.csv --shard 1/2
 tree --table shards.csv --shard 2/2
 status 0 sweep --join shards.csv
@@ -254,7 +259,7 @@ status 0 sweep system "$logistic" r=3..4:30 x=.3,.5 scheme=explicit-euler dt=1 s
 status 0 again panels.svg
 # an error is one, not the quantity itself
 status 0 sweep kepler eccentricity=0,0.5 scheme=verlet until=50 --values energy_error:1 --measure energy_error
-awk -F, 'NR > 1 && ($12 != $15 || $15 > 0.1) { exit 1 }' out || fail "errors as values: $(cat out)"
+awk -F, 'NR > 1 && ($13 != $16 || $16 > 0.1) { exit 1 }' out || fail "errors as values: $(cat out)"
 # what is printed of a derivative of max can be read
 status 0 list system 'H=p^2/2 + max(q, 0)^2' q=1 p=0
 grep -qF "p' = -2*max(q, 0)*if(0 < q, 1, 0)" out || fail "the derivative of max: $(cat out)"

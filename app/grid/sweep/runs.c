@@ -210,6 +210,10 @@ static void put_front(const struct gm_sweep *sweep, size_t run, struct gm_row *r
             }
         }
     }
+    if (sweep->values) { /* a table of other values is not continued */
+        snprintf(text, sizeof text, "%s at %s", sweep->values, sweep->at);
+        gm_row_text(row, "values", text);
+    }
 }
 
 /* Puts the cells after the front, for a run that has ended or could not begin (no lane), or their names. */
@@ -506,7 +510,8 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, write_head), free);
-    sweep->status = 1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL);
+    sweep->status =
+        1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL) + (sweep->values != NULL);
     sweep->index = sweep->values ? sweep->status + GM_SWEEP_COSTS + sweep->chosen.count : 0;
 }
 
