@@ -167,9 +167,15 @@ holds 'near(d["start"][0]**2 * 1.96 - .98 * d["start"][0] + .49 - 1.4, 0, 1e-9)'
 
 status 0 orbit ./vdp.system --save cycle.system -o cycle.svg
 grep -q 'multipliers 1, 0.000859695' cycle.svg || fail "the picture does not name its multipliers"
-status 0 run ./cycle.system scheme=gauss8 --state --json
+status 0 run ./cycle.system --state --json
+holds 'd["scheme"] == "gauss8"'
 holds 'near(d["state"][0], 2.0086198608748, 1e-10) and near(d["state"][1], 0, 1e-10)'
 status 0 again cycle.svg
+# the scheme of the orbit comes first in the file, before those of the system's own line
+status 0 orbit van-der-pol scheme=gauss4 --save driven.system
+grep -q '^schemes: gauss4 [a-z]' driven.system || fail "the schemes of a saved orbit: $(grep schemes driven.system)"
+status 0 run ./driven.system --json
+holds 'd["scheme"] == "gauss4"'
 status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1 --json
 holds 'd["status"] == "an equilibrium" and d["multipliers"] == [] and d["stability"] == "none" and d["period"] == 1'
 status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1
@@ -252,6 +258,14 @@ for row in rows:
     assert abs(x - (-1 if at else 1)) < most and abs(turns - at - round(turns - at)) < 1e-5, row
 END
 done
+# of a map a maximum is one of its values: the larger ones of the cycle of 4
+status 0 sweep system "$logistic" r=3.5,3.500001 x=0.5 scheme=explicit-euler dt=1 steps=2001 --values x:2 --at maximum
+python3 - out <<'END' || fail "the maxima of a map: $(cat out)"
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1])))[:2]
+assert all(float(row["t"]) == int(float(row["t"])) for row in rows), rows
+assert all(abs(x - y) < 1e-9 for x, y in zip(sorted(float(row["x"]) for row in rows), [.8269407066, .8749972636])), rows
+END
 # a run that fails has one row; a second key makes panels
 status 0 sweep system "$logistic" r=3.2,5 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:3
 [ "$(grep -c ',ok,' out)" = 3 ] && grep -q ',blow-up,.*,,,$' out || fail "a run that fails: $(cat out)"

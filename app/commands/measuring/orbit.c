@@ -312,7 +312,8 @@ static int save(const struct work *work)
 {
     char message[GM_MESSAGE];
     const char *path = work->options->save;
-    char *text = gm_system_now(work->request->scene, work->request->lanes[0].parameters);
+    char *text = gm_system_now(work->request->scene, work->request->lanes[0].parameters,
+                               gm_scheme_word(work->orbit.scheme));
     gm_arena_need(work->options->arena, text);
     gm_arena_keep(work->options->arena, text, free);
     if (!gm_folder_make_for(path, message) || gm_temporary_write(path, text, strlen(text)) != 0) {
