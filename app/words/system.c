@@ -524,12 +524,23 @@ static size_t put_values(FILE *stream, const char *text, struct gm_span pairs, c
     return from;
 }
 
-char *gm_system_now(const struct gm_scene *scene, const void *parameters)
+/* The words of a list, after the one that comes first. */
+static void put_others(FILE *stream, const char *text, struct gm_span value, const char *first)
+{
+    for (size_t at = value.begin, length; at < value.end; at += length + 1) {
+        length = strcspn(text + at, " \t,;#\n");
+        if (length > 0 && (strlen(first) != length || strncmp(text + at, first, length) != 0)) {
+            fprintf(stream, " %.*s", (int)length, text + at);
+        }
+    }
+}
+
+char *gm_system_now(const struct gm_scene *scene, const void *parameters, const char *scheme)
 {
     /* before lanes: of one number, which a key sets; after them: of values */
-    enum { DT, MEMBERS = 2, LANES = 5, PARAMETER, START, SPREAD };
-    static const char *const lines[] = {"dt",    "until",     "members", "half_length", "points",
-                                        "lanes", "parameter", "start",   "spread",      NULL};
+    enum { DT, MEMBERS = 2, LANES = 5, PARAMETER, START, SPREAD, SCHEMES };
+    static const char *const lines[] = {"dt",        "until", "members", "half_length", "points", "lanes",
+                                        "parameter", "start", "spread",  "schemes",     NULL};
     const struct gm_parameter *rows[LANES];
     bool put[LANES];
     char number[GM_TEXT_SIZE];
@@ -553,7 +564,13 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
             gm_span_trimmed(scene->text, (struct gm_span){line.value.begin,
                                                           values < line.value.end ? values : line.value.end});
         has_dt = has_dt || i == DT;
-        if (i == LANES) { /* the words of lanes are one lane's */
+        if (i == SCHEMES && scheme) {
+            fwrite(scene->text + from, 1, value.begin - from, stream);
+            fputs(scheme, stream);
+            put_others(stream, scene->text, value, scheme);
+            from = value.end;
+            scheme = NULL;
+        } else if (i == LANES) { /* the words of lanes are one lane's */
             fwrite(scene->text + from, 1, line.word.begin - from, stream);
             from = at;
         } else if (i == PARAMETER || i == START ||
@@ -582,6 +599,9 @@ char *gm_system_now(const struct gm_scene *scene, const void *parameters)
             fprintf(stream, "%s: %s\n", lines[i],
                     gm_parameter_format(rows[i], parameters, number, sizeof number));
         }
+    }
+    if (stream && scheme) {
+        fprintf(stream, "schemes: %s\n", scheme);
     }
     return gm_stream_end(&writing);
 }

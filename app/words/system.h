@@ -54,8 +54,8 @@ void gm_system_trial_close(struct gm_system_trial *trial);
    false when out of memory. */
 bool gm_system_recall(const char *word, const char *text);
 
-/* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no
-   memory. */
-char *gm_system_now(const struct gm_scene *scene, const void *parameters);
+/* The text of a system's scene with these values of its parameters and its start, and with this scheme first, unless it
+   is NULL; malloc'ed, NULL: no memory. */
+char *gm_system_now(const struct gm_scene *scene, const void *parameters, const char *scheme);
 
 #endif

@@ -6,11 +6,13 @@
        floor(x) = k    ceil(x) = -k, g = -x    mod(a, b) = a - b k, g = a/b */
 #include "core/model/breaks.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/basics.h"
+#include "core/expression/derivative.h"
 
 const bool *gm_breaks_switches(struct gm_arena *arena, const struct gm_user_system *system)
 {
@@ -65,6 +67,201 @@ void gm_breaks_declare(struct gm_user_system *system)
     for (size_t i = 0; i < GM_COUNT(words); i++) {
         snprintf(choice->words[i], sizeof choice->words[i], "%s", words[i]);
     }
+}
+
+bool gm_operation_jumps(enum gm_operation operation)
+{
+    return !gm_operation_rows[operation].smooth && operation > GM_VARIABLE && operation != GM_OPERATION_ABS &&
+           operation != GM_OPERATION_MIN && operation != GM_OPERATION_MAX;
+}
+
+/* A switch at the zeros of g, or at its whole numbers, and what is compared on both sides of it. */
+struct passage {
+    struct gm_user_system *system;
+    const gm_node_id *nodes, *direction, *gradient, *parts;
+    size_t count, variables, part_count;
+    gm_node_id g;
+    bool whole;
+    double *point, *base, *unit; /* [variable_count]; the point of the switch, and the unit normal there */
+    double *sides[2];            /* the values of all nodes on both sides */
+};
+
+static void evaluate(const struct passage *passage, double *values)
+{
+    gm_formula_evaluate_parts(&passage->system->graph, passage->parts, passage->part_count, passage->point,
+                              values);
+}
+
+/* Moves a random point to the switch by Newton's method. Returns true if it is there. */
+static bool find_point(const struct passage *passage, uint64_t seed)
+{
+    enum { MOST_MOVES = 60 };
+    const struct gm_user_system *system = passage->system;
+    const size_t count = system->variable_count;
+    double target = NAN, *values = passage->sides[0];
+    for (size_t i = 0; i < count; i++) {
+        const bool parameter = i >= system->parameters && i < system->velocities;
+        const uint64_t drawn = gm_mixed(seed ^ gm_mixed(i));
+        passage->base[i] = parameter ? system->variables[i].value
+                                     : ((double)(drawn >> 12) * 0x1p-52 * 4 - 2) * (seed % 4 == 3 ? 10 : 1);
+    }
+    for (int move = 0; move < MOST_MOVES; move++) {
+        memcpy(passage->point, passage->base, count * sizeof(double));
+        evaluate(passage, values);
+        double square = 0;
+        for (size_t i = 0; i < count; i++) {
+            passage->unit[i] = values[passage->gradient[i]];
+            square += passage->unit[i] * passage->unit[i];
+        }
+        target = !passage->whole ? 0 : isnan(target) ? round(values[passage->g]) : target;
+        const double away = (values[passage->g] - target) / sqrt(square);
+        if (!isfinite(away)) {
+            return false;
+        }
+        double size = 1;
+        for (size_t i = 0; i < count; i++) {
+            passage->unit[i] /= sqrt(square);
+            passage->base[i] -= away * passage->unit[i];
+            size = fmax(size, passage->unit[i] == 0 ? 0 : fabs(passage->base[i]));
+        }
+        if (fabs(away) <= 1e-14 * size) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The sum of the jumps over twice this distance, times the slopes of g; *size is what rounding is measured by. */
+static double jump_over(const struct passage *passage, double distance, double *size)
+{
+    double sums[2] = {0};
+    *size = 0;
+    for (int side = 0; side < 2; side++) {
+        for (size_t i = 0; i < passage->system->variable_count; i++) {
+            passage->point[i] = passage->base[i] + (side ? distance : -distance) * passage->unit[i];
+        }
+        evaluate(passage, passage->sides[side]);
+    }
+    for (int side = 0; side < 2; side++) {
+        double along = 0, speed = 0;
+        for (size_t i = 0; passage->direction && i < passage->variables; i++) {
+            const double part = passage->sides[side][passage->direction[i]] * passage->unit[i];
+            along += part;
+            speed += fabs(part);
+        }
+        for (size_t i = 0; i < passage->count; i++) {
+            const double slope = passage->direction ? along : passage->unit[i],
+                         below = passage->sides[0][passage->nodes[i]],
+                         above = passage->sides[1][passage->nodes[i]];
+            sums[side] += slope == 0 ? 0 : (above - below) * slope;
+            *size += slope == 0 ? 0 : (fabs(above) + fabs(below)) * fmax(speed, fabs(slope));
+        }
+    }
+    return fmax(fabs(sums[0]), fabs(sums[1]));
+}
+
+/* The values of a continuous formula differ less and less when the sides come nearer, also like a root. */
+static enum gm_identity test_passage(const struct passage *passage)
+{
+    enum { TRIES = 64, TESTS = 8 };
+    int tests = 0;
+    for (uint64_t seed = 0; seed < TRIES && tests < TESTS; seed++) {
+        double size;
+        if (find_point(passage, seed)) {
+            const double far = jump_over(passage, 1e-4, &size), near = jump_over(passage, 1e-9, &size);
+            if (near > far / 10 + 1e-12 * size) {
+                return GM_NOT_ZERO;
+            }
+            tests += isfinite(near) && isfinite(far);
+        }
+    }
+    return tests > 0 ? GM_ZERO_TESTED : GM_UNTESTED;
+}
+
+static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
+{
+    (void)graph;
+    return part == *(const gm_node_id *)node;
+}
+
+/* Returns true if the switch of a node rests by its formula: no direction moves its g. */
+static bool rests(const struct passage *passage, gm_node_id jump)
+{
+    struct gm_formula *graph = &passage->system->graph;
+    bool rest = true;
+    if (passage->direction) {
+        const gm_node_id rate =
+            gm_derivative_along(graph, passage->g, passage->direction, passage->variables);
+        return rate != GM_NO_NODE && gm_identity_of(graph, rate, NULL, 0) == GM_ZERO_PROVED;
+    }
+    for (size_t i = 0; i < passage->count && rest; i++) {
+        rest = gm_is_constant(graph, passage->gradient[i], 0) ||
+               gm_formula_first(graph, passage->nodes[i], is_node, &jump) == GM_NO_NODE;
+    }
+    return rest;
+}
+
+enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id *nodes, size_t count,
+                                const gm_node_id *direction, size_t variables, gm_node_id *at)
+{
+    enum { MOST = 256 }; /* switches that are tested */
+    struct gm_formula *graph = &system->graph;
+    const size_t mark = gm_arena_mark(system->arena), all = system->variable_count;
+    size_t part_count = 0, found = 0;
+    const gm_node_id *parts =
+        gm_arena_keep(system->arena, gm_formula_parts_of(graph, nodes, count, &part_count), free);
+    gm_node_id jumps[MOST], *roots = gm_arena_take(system->arena, count + variables + all + 1, sizeof *roots);
+    const bool *switches = NULL;
+    bool *varying = gm_arena_take(system->arena, all, sizeof *varying);
+    enum gm_identity worst = GM_ZERO_PROVED;
+    for (size_t k = 0; k < part_count && found < MOST; k++) {
+        if (gm_operation_jumps(graph->nodes[parts[k]].operation)) {
+            switches = switches ? switches : gm_breaks_switches(system->arena, system);
+            jumps[found] = parts[k];
+            found += switches[parts[k]];
+        }
+    }
+    for (size_t i = 0; i < system->initial; i++) {
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    memcpy(roots, nodes, count * sizeof *roots);
+    if (direction) {
+        memcpy(roots + count, direction, variables * sizeof *roots);
+    }
+    for (size_t k = 0; k < found && worst != GM_NOT_ZERO; k++) {
+        const struct gm_node node = graph->nodes[jumps[k]];
+        const size_t inner = gm_arena_mark(system->arena), given = count + (direction ? variables : 0);
+        struct passage passage = {.system = system,
+                                  .nodes = nodes,
+                                  .count = count,
+                                  .direction = direction,
+                                  .variables = variables,
+                                  .whole = node.operation == GM_OPERATION_FLOOR ||
+                                           node.operation == GM_OPERATION_CEIL ||
+                                           node.operation == GM_OPERATION_MOD};
+        passage.g = node.operation == GM_OPERATION_MOD
+                        ? gm_simplified(graph, GM_OPERATION_DIVIDE, node.a, node.b)
+                    : node.operation == GM_OPERATION_BELOW ? gm_difference(graph, node.a, node.b)
+                                                           : node.a;
+        passage.gradient = roots + given;
+        gm_arena_need(system->arena, gm_gradient(graph, passage.g, varying, all, roots + given));
+        roots[given + all] = passage.g;
+        gm_system_need_graph(system);
+        passage.parts = gm_arena_keep(
+            system->arena, gm_formula_parts_of(graph, roots, given + all + 1, &passage.part_count), free);
+        passage.point = gm_arena_take(system->arena, 3 * all, sizeof(double));
+        passage.base = passage.point + all;
+        passage.unit = passage.base + all;
+        for (int side = 0; side < 2; side++) {
+            passage.sides[side] = gm_arena_take_unset(system->arena, graph->count, sizeof(double));
+        }
+        const enum gm_identity here = rests(&passage, jumps[k]) ? GM_ZERO_PROVED : test_passage(&passage);
+        *at = here == GM_NOT_ZERO ? jumps[k] : *at;
+        worst = here == GM_NOT_ZERO || here > worst ? here : worst;
+        gm_arena_release(system->arena, inner);
+    }
+    gm_arena_release(system->arena, mark);
+    return found == MOST && worst != GM_NOT_ZERO ? GM_UNTESTED : worst;
 }
 
 /* Returns the variable with the mode of a switch, new if it is not known; GM_NO_NODE: it is not frozen. */

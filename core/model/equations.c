@@ -41,10 +41,14 @@ static bool *marks_of(const struct gm_user_system *system, size_t first, size_t 
     return marked;
 }
 
-/* A direction of all components and the time: these nodes, and the speed of the time; NULL: it is not set. */
+/* A direction of all components and the time: these nodes, and the speed of the time; NULL: it is not set. Other
+   variables rest. */
 static gm_node_id *direction_of(struct gm_user_system *system, const gm_node_id *nodes, double time)
 {
-    gm_node_id *direction = gm_arena_take(system->arena, system->n + 1, sizeof *direction);
+    gm_node_id *direction = gm_arena_take(system->arena, system->variable_count, sizeof *direction);
+    for (size_t i = 0; i < system->variable_count; i++) {
+        direction[i] = gm_formula_constant(&system->graph, 0);
+    }
     if (nodes) {
         memcpy(direction, nodes, system->n * sizeof *direction);
     }
@@ -186,7 +190,7 @@ static void derive_mass(struct gm_user_system *system)
 
 static gm_node_id along(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
 {
-    return gm_derivative_along(&system->graph, node, direction, system->n + 1);
+    return gm_derivative_along(&system->graph, node, direction, system->variable_count);
 }
 
 /* The rates of tangents: the derivatives of the motion's rates along them. */
@@ -268,35 +272,6 @@ bool gm_equations_in_velocities(struct gm_user_system *system, gm_node_id *nodes
     return !system->graph.failed;
 }
 
-/* The rate dI/dq v + dI/dp (dL/dq + F), with dL/dv instead of p, in coordinates and velocities. Rates of
-   velocities need the inverse of the mass matrix, so nodes with velocities have no known rate. */
-static gm_node_id rate_of_lagrangian(struct gm_user_system *system, gm_node_id node, gm_node_id *direction)
-{
-    const size_t half = system->n / 2;
-    if (gm_formula_holds(&system->graph, node, marks_of(system, system->velocities, half),
-                         system->variable_count)) {
-        return GM_NO_NODE;
-    }
-    for (size_t i = 0; i < half; i++) {
-        direction[i] = gm_formula_variable(&system->graph, system->velocities + i);
-    }
-    gm_node_id rate = along(system, node, direction);
-    gm_equations_in_velocities(system, &rate, 1);
-    return rate;
-}
-
-/* The rate of change of a node along the motion; GM_NO_NODE if it is unknown (for a Lagrangian, or with a
-   constraint). */
-static gm_node_id rate_of(struct gm_user_system *system, gm_node_id node)
-{
-    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0)) {
-        return GM_NO_NODE;
-    }
-    gm_node_id *direction = direction_of(system, system->rates, 1);
-    return system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
-                                         : along(system, node, direction);
-}
-
 double *gm_equations_fixed(const struct gm_user_system *system)
 {
     double *fixed = malloc(system->variable_count * sizeof *fixed);
@@ -315,15 +290,67 @@ enum gm_identity gm_equations_vanishes(const struct gm_user_system *system, gm_n
     return identity;
 }
 
+static enum gm_identity weaker(enum gm_identity a, enum gm_identity b)
+{
+    return a == GM_NOT_ZERO || b == GM_NOT_ZERO ? GM_NOT_ZERO : a > b ? a : b;
+}
+
+/* Tests if a node jumps where it moves along the direction. */
+static enum gm_identity passes(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
+{
+    gm_node_id at = GM_NO_NODE;
+    return gm_breaks_pass(system, &node, 1, direction, system->variable_count, &at);
+}
+
+/* Tests if a node is constant along the direction: its slope vanishes, and it does not jump. */
+static enum gm_identity is_constant(struct gm_user_system *system, gm_node_id node,
+                                    const gm_node_id *direction)
+{
+    return weaker(gm_equations_vanishes(system, along(system, node, direction)),
+                  passes(system, node, direction));
+}
+
+/* The direction of the motion, of a Lagrangian with its velocities. */
+static gm_node_id *motion_of(struct gm_user_system *system)
+{
+    gm_node_id *direction = direction_of(system, system->rates, 1);
+    for (size_t i = 0; system->kind == GM_LAGRANGIAN && i < system->n / 2; i++) {
+        direction[i] = gm_formula_variable(&system->graph, system->velocities + i);
+    }
+    return direction;
+}
+
+/* Tests if a node is constant along the motion. With a Lagrangian its rate is dI/dq v + dI/dp (dL/dq + F), with dL/dv
+   for p. Rates of velocities need the inverse of the mass matrix, so for nodes with velocities this is unknown; and with
+   constraints. */
+static enum gm_identity is_conserved(struct gm_user_system *system, gm_node_id node)
+{
+    const size_t half = system->n / 2;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    if (gm_system_item_of(system, GM_WORD_CONSTRAINT, 0) ||
+        (lagrangian && gm_formula_holds(&system->graph, node, marks_of(system, system->velocities, half),
+                                        system->variable_count))) {
+        return GM_UNTESTED;
+    }
+    const gm_node_id *direction = motion_of(system);
+    gm_node_id rate = along(system, node, direction);
+    if (lagrangian) {
+        gm_equations_in_velocities(system, &rate, 1);
+    }
+    return weaker(gm_equations_vanishes(system, rate), passes(system, node, direction));
+}
+
 static bool varies(const struct gm_user_system *system, size_t i, size_t k)
 {
     return system->graph.nodes[system->bracket[i * system->n + k]].operation != GM_CONSTANT;
 }
 
-/* the sum over l of {i, l} d{j, k}/dl and cyclic */
-static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[3], gm_node_id *direction)
+/* Tests the sum over l of {i, l} d{j, k}/dl and cyclic. */
+static enum gm_identity test_jacobi(struct gm_user_system *system, const size_t triple[3],
+                                    gm_node_id *direction)
 {
     const size_t n = system->n;
+    enum gm_identity all = GM_ZERO_PROVED;
     gm_node_id sum = gm_formula_constant(&system->graph, 0);
     for (int turn = 0; turn < 3; turn++) {
         const size_t a = triple[turn], b = triple[(turn + 1) % 3], c = triple[(turn + 2) % 3];
@@ -331,9 +358,10 @@ static gm_node_id jacobi_sum(struct gm_user_system *system, const size_t triple[
         direction[n] = gm_formula_constant(&system->graph, 0);
         if (varies(system, b, c)) {
             sum = gm_sum(&system->graph, sum, along(system, system->bracket[b * n + c], direction));
+            all = weaker(all, passes(system, system->bracket[b * n + c], direction));
         }
     }
-    return sum;
+    return weaker(all, gm_equations_vanishes(system, sum));
 }
 
 /* Checks each triple with a varying bracket once: for other triples the sum has no terms. */
@@ -352,13 +380,12 @@ static void check_jacobi(struct gm_user_system *system)
                     continue;
                 }
                 const size_t triple[] = {i < j ? i : j, i < j ? j : i < k ? i : k, i < k ? k : i};
-                const enum gm_identity found =
-                    gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
+                const enum gm_identity found = test_jacobi(system, triple, direction);
                 gm_system_refuse_if(system, found == GM_NOT_ZERO, system->bracket_place,
                                     "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
                                     system->variables[triple[0]].name, system->variables[triple[1]].name,
                                     system->variables[triple[2]].name);
-                system->jacobi = found == GM_ZERO_PROVED ? system->jacobi : found;
+                system->jacobi = weaker(system->jacobi, found);
             }
         }
     }
@@ -369,9 +396,8 @@ static enum gm_identity check_casimir(struct gm_user_system *system, gm_node_id 
 {
     enum gm_identity all = GM_ZERO_PROVED;
     for (size_t i = 0; i < system->n && all != GM_NOT_ZERO; i++) {
-        const gm_node_id *direction = direction_of(system, &system->bracket[i * system->n], 0);
-        const enum gm_identity found = gm_equations_vanishes(system, along(system, node, direction));
-        all = found == GM_ZERO_PROVED ? all : found;
+        all =
+            weaker(all, is_constant(system, node, direction_of(system, &system->bracket[i * system->n], 0)));
     }
     return all;
 }
@@ -393,7 +419,7 @@ static bool keeps_constraints(struct gm_user_system *system, const struct gm_sys
     const struct gm_system_item *item;
     for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_CONSTRAINT, i)); i++) {
         *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
-        if (gm_equations_vanishes(system, broken->node) == GM_NOT_ZERO) {
+        if (is_constant(system, item->nodes[0], direction) == GM_NOT_ZERO) {
             return false;
         }
     }
@@ -424,8 +450,9 @@ static enum gm_identity check_commuting(struct gm_user_system *system, const str
         const gm_node_id one = along(system, system->rates[i], generator),
                          other = along(system, item->nodes[i], motion);
         *broken = (struct broken){"the motion", gm_difference(&system->graph, one, other)};
-        const enum gm_identity found = gm_equations_vanishes(system, broken->node);
-        all = found == GM_ZERO_PROVED ? all : found;
+        all = weaker(all, gm_equations_vanishes(system, broken->node));
+        all = weaker(
+            all, weaker(passes(system, system->rates[i], generator), passes(system, item->nodes[i], motion)));
     }
     return all;
 }
@@ -438,39 +465,41 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
     struct gm_formula *graph = &system->graph;
     const size_t half = system->n / 2;
     const bool canonical = system->kind == GM_CANONICAL;
-    gm_node_id map = gm_formula_constant(graph, 0), change = map;
+    gm_node_id map = gm_formula_constant(graph, 0);
     if (system->kind > GM_LAGRANGIAN) {
         return check_commuting(system, item, broken);
     }
-    const gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
+    gm_node_id *direction = direction_of(system, NULL, 0);
     for (size_t i = 0; i < half; i++) {
         const gm_node_id momentum = gm_formula_variable(graph, half + i);
         map = gm_sum(graph, map, gm_product(graph, momentum, item->nodes[i]));
-        change = gm_sum(graph, change, gm_product(graph, gradient[i], item->nodes[i]));
+        direction[i] = item->nodes[i];
     }
     /* H: lift to momenta, -p dX/dq; L: lift to velocities, dX/dq v */
     for (size_t i = 0; i < (canonical ? 1 : half); i++) {
         const size_t mark = gm_arena_mark(system->arena);
         const gm_node_id *slopes = gm_equations_gradient(system, canonical ? map : item->nodes[i], NULL);
         for (size_t k = 0; k < half; k++) {
-            if (canonical) {
-                change = gm_difference(graph, change, gm_product(graph, gradient[half + k], slopes[k]));
-            } else {
-                const gm_node_id moved =
-                    gm_product(graph, slopes[k], gm_formula_variable(graph, system->velocities + k));
-                change = gm_sum(graph, change, gm_product(graph, gradient[system->velocities + i], moved));
-            }
+            gm_node_id *lift = &direction[canonical ? half + k : system->velocities + i];
+            *lift = canonical ? gm_negative(graph, slopes[k])
+                              : gm_sum(graph, *lift,
+                                       gm_product(graph, slopes[k],
+                                                  gm_formula_variable(graph, system->velocities + k)));
         }
         gm_arena_release(system->arena, mark);
     }
     if (!keeps_constraints(system, item, broken)) {
         return GM_NOT_ZERO;
     }
-    *broken = (struct broken){canonical ? "H" : "L", change};
+    *broken = (struct broken){canonical ? "H" : "L", along(system, system->energy, direction)};
     item->nodes = gm_arena_resize(system->arena, item->nodes, half + 1, sizeof *item->nodes);
     item->nodes[half] = map;
     item->count = half + 1;
-    return gm_equations_vanishes(system, change);
+    const enum gm_identity found = is_constant(system, system->energy, direction),
+                           passing = passes(system, map, motion_of(system));
+    gm_system_refuse_if(system, found != GM_NOT_ZERO && passing == GM_NOT_ZERO, item->place,
+                        "the momentum map of this symmetry jumps, so the motion does not conserve it");
+    return weaker(found, passing);
 }
 
 /* Refuses a symmetry, with the rate of the broken quantity at one of three points, whose coordinates are 1/2,
@@ -528,9 +557,9 @@ static bool is_of_components(struct gm_user_system *system, gm_node_id node, siz
 static void check_surface(struct gm_user_system *system, const struct gm_system_item *item)
 {
     for (size_t k = 0; k < item->count; k++) {
-        const gm_node_id rate = rate_of(system, item->nodes[k]);
-        const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
-                                             : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
+        const enum gm_identity found = is_conserved(system, item->nodes[k]);
+        const bool kept =
+            found == GM_UNTESTED ? is_of_components(system, item->nodes[k], 0) : found != GM_NOT_ZERO;
         gm_system_refuse_if(
             system, !kept, item->place,
             "a surface does not move: its size depends only on parameters and conserved quantities");
@@ -568,11 +597,9 @@ static bool holds_time(struct gm_user_system *system, const struct gm_system_ite
 static void check_item(struct gm_user_system *system, struct gm_system_item *item, bool forced)
 {
     struct broken broken = {NULL, GM_NO_NODE};
-    gm_node_id rate;
     switch (item->word) {
     case GM_WORD_INVARIANT:
-        rate = rate_of(system, item->nodes[0]);
-        item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
+        item->check = is_conserved(system, item->nodes[0]);
         gm_system_refuse_if(system, item->check == GM_NOT_ZERO && !forced, item->place,
                             "%.60s is not an invariant; observe: takes nearly conserved quantities",
                             item->name);

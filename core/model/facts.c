@@ -563,6 +563,20 @@ static void find_mechanical(const struct search *search, gm_node_id *nodes)
     }
 }
 
+/* Denies that the divergence is 0 where rates jump along their own components, or H along the motion. */
+static void need_passing(const struct search *search, struct gm_finding *finding)
+{
+    struct gm_user_system *system = search->system;
+    gm_node_id at = GM_NO_NODE;
+    conclude(finding, gm_breaks_pass(system, system->rates, system->n, NULL, system->n, &at));
+    finding->why = "jumps, and volume changes across the jump";
+    if (finding->holds && system->kind != GM_RATES) {
+        conclude(finding, gm_breaks_pass(system, &system->energy, 1, system->rates, system->n, &at));
+        finding->why = "jumps in H, and the equations have no force for that";
+    }
+    finding->term = at;
+}
+
 static void find_of_rates(const struct search *search)
 {
     struct gm_user_system *system = search->system;
@@ -594,6 +608,9 @@ static void find_of_rates(const struct search *search)
     }
     conclude(divergence, gm_equations_vanishes(system, sum));
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
+    if (divergence->holds) {
+        need_passing(search, divergence);
+    }
 }
 
 /* Finds x' = v, v' = g(x, t) for the first and the second half of the components. */
@@ -1041,12 +1058,6 @@ static void write_place(const struct gm_user_system *system, gm_node_id term, bo
     }
 }
 
-/* True if the value of a switch jumps, not only a derivative. */
-static bool jumps(enum gm_operation operation)
-{
-    return operation != GM_OPERATION_ABS && operation != GM_OPERATION_MIN && operation != GM_OPERATION_MAX;
-}
-
 /* A reason that is written. */
 struct reason {
     const struct gm_user_system *system;
@@ -1070,7 +1081,8 @@ static void write_switches(struct gm_arena *arena, const struct reason *reason)
             char place[80], *text = gm_formula_text(&system->graph, node, &naming);
             write_place(system, node, false, place, sizeof place);
             fprintf(reason->out, "; %s%s: %s", text ? text : "a long term", place,
-                    jumps(system->graph.nodes[node].operation) ? "it jumps" : "its derivative jumps");
+                    gm_operation_jumps(system->graph.nodes[node].operation) ? "it jumps"
+                                                                            : "its derivative jumps");
             free(text);
             named++;
         }
@@ -1106,7 +1118,8 @@ static void write_reason(struct gm_arena *arena, void *data)
     fprintf(out, "%s%s%s", finding->why ? finding->why : rows[reason->fact].no,
             in_rate ? ", in the rate of " : "", in_rate ? system->variables[finding->component].name : "");
     if (reason->fact == GM_FACT_SMOOTH) {
-        fputs(jumps(system->graph.nodes[finding->term].operation) ? ": it jumps" : ": its derivative jumps",
+        fputs(gm_operation_jumps(system->graph.nodes[finding->term].operation) ? ": it jumps"
+                                                                               : ": its derivative jumps",
               out);
         write_switches(arena, reason);
         if (system->kind <= GM_POISSON) {

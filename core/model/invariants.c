@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/model/breaks.h"
 #include "core/model/equations.h"
 
 /* ---- elimination in the field ---- */
@@ -587,18 +588,24 @@ static void write_all(struct search *search, struct gm_found_invariants *found)
     }
 }
 
-/* H, and the invariants that were declared. */
+static bool passes(struct gm_user_system *system, const gm_node_id *node)
+{
+    gm_node_id at = GM_NO_NODE;
+    return gm_breaks_pass(system, node, 1, system->rates, system->n, &at) == GM_ZERO_PROVED;
+}
+
+/* H, and the invariants that were declared, unless they jump along the motion. */
 static void find_named(struct search *search)
 {
-    const struct gm_user_system *system = search->system;
+    struct gm_user_system *system = search->system;
     search->named = gm_arena_take(search->arena, system->item_count + 1, sizeof *search->named);
-    if (system->kind != GM_RATES) {
+    if (system->kind != GM_RATES && passes(system, &system->energy)) {
         search->named[search->named_count++].node = system->energy;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const gm_node_id node = gm_system_conserved(system, item);
-        if (node != GM_NO_NODE) {
+        if (node != GM_NO_NODE && passes(system, &node)) {
             search->named[search->named_count++] = (struct named){.item = item, .node = node};
         }
     }

@@ -198,13 +198,14 @@ enum gm_ode_facet {
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
     const char *components;
-    bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
-    bool quadratic; /* f is a polynomial of degree 2 */
-    bool linear;    /* f is of degree 1, with coefficients that do not depend on the time */
-    bool rough;     /* f is not smooth: no order can be measured */
-    bool written;   /* the system is user-defined (core/ode/user/problem.h) */
-    bool forms;     /* the state is of discrete forms (core/ode/user/forms.h) */
-    bool forced;    /* a force acts beside the energy's field */
+    const bool *angles; /* [n] components that count modulo 2 pi; NULL: none */
+    bool stiff;         /* implicit equations are solved by Newton's method from the first iteration on */
+    bool quadratic;     /* f is a polynomial of degree 2 */
+    bool linear;        /* f is of degree 1, with coefficients that do not depend on the time */
+    bool rough;         /* f is not smooth: no order can be measured */
+    bool written;       /* the system is user-defined (core/ode/user/problem.h) */
+    bool forms;         /* the state is of discrete forms (core/ode/user/forms.h) */
+    bool forced;        /* a force acts beside the energy's field */
     const struct gm_split *split; /* NULL: the problem has no such facet; so below */
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_lagrangian *lagrangian;

@@ -33,6 +33,13 @@ status 0 run system 'rate=x = -x + y, y = -2*y + z, z = -3*z' x=1 y=1 z=1 scheme
 holds 'all(near(o["lyapunov%d" % k], -k, 1e-3) for k in (1, 2, 3))'
 status 0 run duffing a=0 until=200 --measure lyapunov_spectrum --json
 holds 'near(o["lyapunov1"], 0, 1e-9) and near(o["lyapunov_sum"], -.3, 1e-5)'
+# the mean divergence has ln |det S| of events and breaks: a wall takes 0.9^2 of the area at each of three bounces; across
+# x = 0 the rate falls from 3 to 1
+printf 'coordinates: q\nH: p_q^2/2 + q^2/2 + 2*q\nevent: q = 0; p_q = -0.9*p_q\nstart: q = 1, p_q = 0.3\n' >wall.system
+status 0 run ./wall.system scheme=gauss8 dt=.05 until=5 --measure lyapunov_spectrum --json
+holds 'near(o["divergence_mean"], 6*math.log(.9)/5, 1e-10) and near(o["lyapunov_sum"], 6*math.log(.9)/5, 1e-10)'
+status 0 run system 'rate=x = 2 - sign(x)' x=-1 scheme=rk4 dt=.1 until=10 --measure lyapunov_spectrum --json
+holds 'near(o["divergence_mean"], -math.log(3)/10, 1e-12) and near(o["lyapunov_sum"], -math.log(3)/10, 1e-12)'
 # a symplectic map: the sum is 0, and exponents come in pairs
 status 0 run henon-heiles energy=1/8 q2=-.25 p2=0 scheme=verlet until=5000 --measure lyapunov_spectrum --json
 holds 'near(o["lyapunov_sum"], 0, 1e-9) and near(o["lyapunov1"] + o["lyapunov4"], 0, .004) and o["lyapunov1"] > .02'
@@ -96,6 +103,30 @@ holds 'near(d["multipliers"][3][0], .00350381, 3e-7) and all(near(complex(*m), 1
 # a circle in a field of force has the period 2 pi; its multipliers are 1, three of them by the two invariants
 status 0 orbit kepler --json
 holds 'near(d["period"], 2 * math.pi, 1e-9) and d["by_structure"] >= 2 and all(near(complex(*m), 1, 1e-4) for m in d["multipliers"])'
+# a root of order four, which rounding splits: digits below its error are not printed
+holds 'd["stability"] == "parabolic"'
+status 0 orbit kepler
+grep -q '^  multipliers  *1, 1, 1, 1$' out || fail "a multiple root: $(cat out)"
+# of every size: a circle of radius s, and van der Pol's cycle
+for s in 3e-10 1 1e8; do
+    status 0 orbit system 'rate=x = y, y = -x' x=$s y=0 --json
+    holds "near(d['period'], 2 * math.pi, 1e-12) and d['start'] == [$s, 0]"
+    status 0 orbit system "rate=x = y, y = (1 - (x/$s)^2)*y - x" x=2*$s y=0 --json
+    holds "near(d['period'], 6.663286859323133, 1e-11) and near(d['start'][0] / $s, 2.0086198609, 1e-9) and near(d['multipliers'][1][0], 8.5969506360e-4, 1e-12)"
+done
+# far from the origin: its radius is 1e-6, its place 5
+status 0 orbit system 'rate=x = 1e6*y, y = -1e6*(x - 5)' x=5.000001 y=0 --json
+holds 'near(d["period"], 2e-6 * math.pi, 1e-15)'
+# an angle that turns: the period of x' = 1 - sin(x)/2 is 2 pi/sqrt(3/4), of the pendulum an elliptic integral
+printf 'rate: x = 1 - sin(x)/2\nangle: x\nstart: x = 0\n' >angle.system
+status 0 orbit ./angle.system --json
+holds 'near(d["period"], 2 * math.pi / math.sqrt(.75), 1e-11)'
+printf 'coordinates: q\nH: p_q^2/2 - cos(q)\nangle: q\nstart: q = 0, p_q = 2.5\n' >angle.system
+status 0 orbit ./angle.system --json
+holds 'near(d["period"], 3.19248444426357, 1e-11) and d["stability"] == "parabolic"'
+# digits that are noise are not printed
+status 0 orbit lorenz x=-13.7636 y=-19.5788 z=27 fix=z
+grep -q '^  multipliers  *4.712947273, 1, 1e-10$' out || fail "digits of a small multiplier: $(cat out)"
 # shaken: the period is that of the force, and det M = exp(-.3 T)
 status 0 orbit duffing a=.3 period=2*pi/1.2 --json
 holds 'near(abs(complex(*d["multipliers"][0]) * complex(*d["multipliers"][1])), math.exp(-.3 * 2 * math.pi / 1.2), 1e-10) and d["residual"] < 1e-10'
@@ -136,9 +167,15 @@ holds 'near(d["start"][0]**2 * 1.96 - .98 * d["start"][0] + .49 - 1.4, 0, 1e-9)'
 
 status 0 orbit ./vdp.system --save cycle.system -o cycle.svg
 grep -q 'multipliers 1, 0.000859695' cycle.svg || fail "the picture does not name its multipliers"
-status 0 run ./cycle.system scheme=gauss8 --state --json
+status 0 run ./cycle.system --state --json
+holds 'd["scheme"] == "gauss8"'
 holds 'near(d["state"][0], 2.0086198608748, 1e-10) and near(d["state"][1], 0, 1e-10)'
 status 0 again cycle.svg
+# the scheme of the orbit comes first in the file, before those of the system's own line
+status 0 orbit van-der-pol scheme=gauss4 --save driven.system
+grep -q '^schemes: gauss4 [a-z]' driven.system || fail "the schemes of a saved orbit: $(grep schemes driven.system)"
+status 0 run ./driven.system --json
+holds 'd["scheme"] == "gauss4"'
 status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1 --json
 holds 'd["status"] == "an equilibrium" and d["multipliers"] == [] and d["stability"] == "none" and d["period"] == 1'
 status 2 orbit system 'H=p^2/2 + q^2/2' q=0 p=0 period=1
@@ -154,6 +191,13 @@ refused 1 "orbit follows one run" orbit lorenz x=1,2
 refused 1 "has no derivative" orbit lorenz scheme=dopri5
 refused 1 "it has constraints" orbit cartesian-pendulum
 refused 1 "period= gives the period" orbit duffing
+refused 1 "1.234 is not a period of the equations: at the same state the rate of p is" orbit duffing period=1.234
+refused 1 "5 is not a period of the equations" orbit duffing period=5
+refused 1 "is steps times dt, is not a period" orbit duffing scheme=midpoint dt=.05 steps=100
+refused 2 "the start is an equilibrium" orbit system 'H=p^2/2 - cos(q)' q=pi p=0
+refused 2 "ends before it returns: the implicit step after t = 0.99" orbit system 'rate=x = x^2' x=1
+status 2 orbit system 'rate=x = x^2' x=1 period=3
+grep -q 'no orbit that closes: the implicit step after t = 0.99' err || fail "the reason of a run that ends: $(cat err)"
 refused 1 "not a .system file" orbit ./vdp.system --save cycle.npz
 refused 2 "does not return" orbit system 'rate=x=-x' x=1
 refused 1 "orbit does not follow burgers" orbit burgers
@@ -188,6 +232,11 @@ for lines in 1 14 20 25 30; do
     tree --table tree.csv
     [ "$(wc -l <tree.csv)" = 37 ] && python3 tree.py || fail "a table that was cut after line $lines"
 done
+# a table of other values, or at another place, is left as it is
+cp tree.csv kept.csv
+refused 3 "not that of run 0 with --values x:5 --at step; it is left as it is" sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:5 --table tree.csv
+refused 3 "not that of run 0 with --values x:12 --at maximum" sweep system "$logistic" r=3.2,3.5,3.84 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:12 --at maximum --table tree.csv
+cmp -s tree.csv kept.csv || fail "a table of other values was changed"
 tree --table shards.csv --shard 1/2
 tree --table shards.csv --shard 2/2
 status 0 sweep --join shards.csv
@@ -209,6 +258,14 @@ for row in rows:
     assert abs(x - (-1 if at else 1)) < most and abs(turns - at - round(turns - at)) < 1e-5, row
 END
 done
+# of a map a maximum is one of its values: the larger ones of the cycle of 4
+status 0 sweep system "$logistic" r=3.5,3.500001 x=0.5 scheme=explicit-euler dt=1 steps=2001 --values x:2 --at maximum
+python3 - out <<'END' || fail "the maxima of a map: $(cat out)"
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1])))[:2]
+assert all(float(row["t"]) == int(float(row["t"])) for row in rows), rows
+assert all(abs(x - y) < 1e-9 for x, y in zip(sorted(float(row["x"]) for row in rows), [.8269407066, .8749972636])), rows
+END
 # a run that fails has one row; a second key makes panels
 status 0 sweep system "$logistic" r=3.2,5 x=0.5 scheme=explicit-euler dt=1 steps=2000 --values x:3
 [ "$(grep -c ',ok,' out)" = 3 ] && grep -q ',blow-up,.*,,,$' out || fail "a run that fails: $(cat out)"
@@ -216,7 +273,7 @@ status 0 sweep system "$logistic" r=3..4:30 x=.3,.5 scheme=explicit-euler dt=1 s
 status 0 again panels.svg
 # an error is one, not the quantity itself
 status 0 sweep kepler eccentricity=0,0.5 scheme=verlet until=50 --values energy_error:1 --measure energy_error
-awk -F, 'NR > 1 && ($12 != $15 || $15 > 0.1) { exit 1 }' out || fail "errors as values: $(cat out)"
+awk -F, 'NR > 1 && ($13 != $16 || $16 > 0.1) { exit 1 }' out || fail "errors as values: $(cat out)"
 # what is printed of a derivative of max can be read
 status 0 list system 'H=p^2/2 + max(q, 0)^2' q=1 p=0
 grep -qF "p' = -2*max(q, 0)*if(0 < q, 1, 0)" out || fail "the derivative of max: $(cat out)"

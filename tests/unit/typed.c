@@ -172,7 +172,7 @@ static void saved(void **unused)
     struct gm_request request;
     assert_true(gm_system_recall("lists", text));
     assert_true(gm_request_parse(&request, 4, words, 1, message));
-    char *now = gm_system_now(request.scene, request.lanes[0].parameters);
+    char *now = gm_system_now(request.scene, request.lanes[0].parameters, NULL);
     assert_non_null(now);
     assert_non_null(strstr(now, "parameter: k[1..3] = 1, 5, 3; 0 .. 10\n"));
     assert_non_null(strstr(now, "q[1] = 1, q[2] = 2, q[3] = 7,\n"));
@@ -195,7 +195,7 @@ static void saved(void **unused)
     /* of a system in words, too, how it runs */
     char *typed[] = {"system", "H=p^2/2 + q^4/4", "q=1", "p=0", "dt=0.05", "until=7", "members=9"};
     assert_true(gm_request_parse(&request, 7, typed, 1, message));
-    now = gm_system_now(request.scene, request.lanes[0].parameters);
+    now = gm_system_now(request.scene, request.lanes[0].parameters, NULL);
     assert_non_null(now);
     assert_non_null(strstr(now, "\ndt: 0.05\n"));
     assert_non_null(strstr(now, "\nuntil: 7\n"));
@@ -208,7 +208,7 @@ static void saved(void **unused)
                                  "coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4\nstart: q = 1, p = 0\n"
                                  "members: points = 4; 3 .. 9\nspread: size = 0.1 # small\n"));
     assert_true(gm_request_parse(&request, 3, named, 1, message));
-    now = gm_system_now(request.scene, request.lanes[0].parameters);
+    now = gm_system_now(request.scene, request.lanes[0].parameters, NULL);
     assert_non_null(now);
     assert_non_null(strstr(now, "\nmembers: points = 7; 3 .. 9\nspread: size = 0.5 # small\n"));
     assert_null(strstr(now, "\npoints: "));

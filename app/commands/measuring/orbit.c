@@ -8,11 +8,13 @@
 #include "app/data/save.h"
 #include "app/output/folder.h"
 #include "app/output/say.h"
+#include "app/words/drive.h"
 #include "app/words/system.h"
 #include "core/arena.h"
 #include "core/expression/nearest.h"
 #include "core/expression/number.h"
 #include "core/expression/reader.h"
+#include "core/functions/functions.h"
 #include "core/memory.h"
 #include "core/ode/indicators/periodic.h"
 #include "core/ode/indicators/tangent.h"
@@ -84,6 +86,31 @@ static void check_lane(const struct work *work)
         scheme->name);
 }
 
+/* Returns why the steps from the start to some time fail, as a part of a sentence; "" if they do not. */
+static const char *failure_of(const struct work *work, int64_t steps)
+{
+    char sentence[GM_MESSAGE] = "";
+    if (gm_run_advance(work->lane->run, steps) != GM_OK) {
+        gm_failure_sentence(work->lane, sentence, sizeof sentence);
+    }
+    return gm_arena_print(work->options->arena, "%s", sentence);
+}
+
+/* The period of equations that contain t is one of their right side. */
+static void check_period(const struct work *work)
+{
+    const struct gm_periodic *orbit = &work->orbit;
+    struct gm_period_miss miss;
+    if (gm_has_time(orbit->problem) && !gm_period_fits(orbit, &miss)) {
+        gm_command_end(
+            work->options, GM_EXIT_USAGE,
+            "%.10g%s is not a period of the equations: at the same state the rate of %s is %.6g at "
+            "t = %.6g, and %.6g a period later",
+            orbit->period, work->period ? "" : ", which is steps times dt,",
+            component_of(miss.component, work), miss.rates[0], miss.t, miss.rates[1]);
+    }
+}
+
 /* Sets the period and the steps, before they are refined. */
 static void choose_period(struct work *work, struct gm_problem *problem)
 {
@@ -108,15 +135,21 @@ static void choose_period(struct work *work, struct gm_problem *problem)
         orbit->period = (double)orbit->steps * dt;
         gm_command_end_if(options, orbit->steps < 1, GM_EXIT_USAGE,
                           "the orbit of a map has at least one step");
+        check_period(work);
         return;
     } else {
         gm_command_end_if(options, !orbit->free, GM_EXIT_USAGE,
                           "the equations contain t: period= gives the period of their right side");
+        gm_command_end_if(options, gm_start_rests(orbit, dt), GM_EXIT_NUMERICAL,
+                          "the start is an equilibrium, where f is 0: an orbit moves; start elsewhere");
         /* a motion that nears an orbit does so in a tenth of them, and returns from there */
         orbit->period = gm_first_return(orbit, dt, work->held ? MOST_RETURN : MOST_RETURN / 10);
         if (isnan(orbit->period) && !work->held) {
             orbit->period = gm_first_return(orbit, dt, MOST_RETURN);
         }
+        const char *failure = isnan(orbit->period) ? failure_of(work, 2 * MOST_RETURN) : "";
+        gm_command_end_if(options, failure[0], GM_EXIT_NUMERICAL, "the motion ends before it returns: %s",
+                          failure);
         gm_command_end_if(options, isnan(orbit->period), GM_EXIT_NUMERICAL,
                           "the motion does not return to the plane through its start normal to f; start "
                           "closer to the orbit, or give its period=");
@@ -126,6 +159,7 @@ static void choose_period(struct work *work, struct gm_problem *problem)
                       "a period of %g has more than %d steps of dt=%g: give a longer dt=", orbit->period,
                       MOST_STEPS, dt);
     orbit->steps = (int64_t)steps;
+    check_period(work);
 }
 
 static size_t structure_of(const struct work *work)
@@ -207,18 +241,31 @@ static void print_json(const struct work *work)
     gm_row_close(&row, "\n");
 }
 
+/* A number of at most this many digits, without those below its error. */
+static const char *known_digits(const struct work *work, double value, double error, int most)
+{
+    const double digits = fmin(most, floor(log10(fabs(value) / error)) + 1);
+    return gm_arena_print(work->options->arena, "%.*g", (int)fmax(1, digits), value);
+}
+
 /* The multipliers as a text: "285.4037, 1, 1, 0.0035", or pairs "0.5 ± 0.8i". */
 static const char *multipliers_of(const struct work *work, int digits)
 {
     const struct gm_periodic *orbit = &work->orbit;
+    struct gm_arena *arena = work->options->arena;
     const char *text = orbit->count == 0 ? "none" : "";
     for (size_t i = 0; i < orbit->count; i++) {
-        const double re = orbit->multipliers[i], im = orbit->multipliers[orbit->count + i];
-        if (im == 0) {
-            text = gm_arena_print(work->options->arena, "%s%s%.*g", text, i ? ", " : "", digits, re);
+        const double re = orbit->multipliers[i], im = orbit->multipliers[orbit->count + i],
+                     error = gm_multiplier_error(orbit, i);
+        if (gm_hypot(re, im) <= error) {
+            text = gm_arena_print(arena, "%s%sbelow %.1g", text, i ? ", " : "", error);
+        } else if (fabs(im) <= error) {
+            text =
+                gm_arena_print(arena, "%s%s%s", text, i ? ", " : "", known_digits(work, re, error, digits));
         } else if (im > 0) {
-            text = gm_arena_print(work->options->arena, "%s%s%.*g ± %.*gi", text, i ? ", " : "", digits, re,
-                                  digits, im);
+            text = gm_arena_print(arena, "%s%s%s ± %si", text, i ? ", " : "",
+                                  fabs(re) > error ? known_digits(work, re, error, digits) : "0",
+                                  known_digits(work, im, error, digits));
         }
     }
     return text;
@@ -265,7 +312,8 @@ static int save(const struct work *work)
 {
     char message[GM_MESSAGE];
     const char *path = work->options->save;
-    char *text = gm_system_now(work->request->scene, work->request->lanes[0].parameters);
+    char *text = gm_system_now(work->request->scene, work->request->lanes[0].parameters,
+                               gm_scheme_word(work->orbit.scheme));
     gm_arena_need(work->options->arena, text);
     gm_arena_keep(work->options->arena, text, free);
     if (!gm_folder_make_for(path, message) || gm_temporary_write(path, text, strlen(text)) != 0) {
@@ -327,7 +375,9 @@ int gm_command_orbit(const struct gm_options *options)
         gm_complain("the motion rests there, or comes to rest: an orbit moves; start farther away%s",
                     work->held ? ", or without fix=" : "");
     } else if (work->orbit.status == GM_PERIODIC_NO_CONVERGENCE) {
-        gm_complain("Newton's method found no orbit that closes: start closer to one, or give its period=");
+        const char *failure = isfinite(work->orbit.residual) ? "" : failure_of(work, work->orbit.steps);
+        gm_complain("Newton's method found no orbit that closes: %s",
+                    failure[0] ? failure : "start closer to one, or give its period=");
     }
     int status = work->orbit.status == GM_PERIODIC_FOUND ? GM_EXIT_OK : GM_EXIT_NUMERICAL;
     if (status == GM_EXIT_OK && (options->save || options->output || options->out)) {

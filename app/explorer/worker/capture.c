@@ -128,7 +128,7 @@ bool gm_capture_save_system(const struct gm_play *play, char *sentence)
     if (!session->scene->text) {
         return true;
     }
-    char *text = gm_system_now(session->scene, gm_session_owner(session, session->selected, false));
+    char *text = gm_system_now(session->scene, gm_session_owner(session, session->selected, false), NULL);
     gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
     const int error = text ? gm_temporary_write(path, text, strlen(text)) : ENOMEM;
     free(text);

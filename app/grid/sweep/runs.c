@@ -210,6 +210,10 @@ static void put_front(const struct gm_sweep *sweep, size_t run, struct gm_row *r
             }
         }
     }
+    if (sweep->values) { /* a table of other values is not continued */
+        snprintf(text, sizeof text, "%s at %s", sweep->values, sweep->at);
+        gm_row_text(row, "values", text);
+    }
 }
 
 /* Puts the cells after the front, for a run that has ended or could not begin (no lane), or their names. */
@@ -287,6 +291,12 @@ static const char *name_at(size_t i, const void *data)
                                  : gm_scene_observable_at(names->lane->scene, i - names->components)->key;
 }
 
+/* Returns true if steps have the length 1: they are those of a map, which has no values between them. */
+static bool is_map(const struct gm_lane *lane)
+{
+    return fabs(lane->run->dt) == 1;
+}
+
 /* Reads --values and --at for runs such as the one of a lane; leaves the body of the sweep's arena with a sentence. */
 static void open_values(struct gm_sweep *sweep, const char *values, const char *at,
                         const struct gm_lane *lane)
@@ -317,7 +327,7 @@ static void open_values(struct gm_sweep *sweep, const char *values, const char *
                        "--values: %.60s is not a component or an observable of %s%s%s", sweep->name,
                        scene->name, near ? "; did you mean " : "", near ? near : "");
     const bool has_section = gm_scene_section(scene) < scene->track_count;
-    sweep->place = has_section && fabs(lane->run->dt) != 1 ? GM_AT_SECTION : GM_AT_STEP;
+    sweep->place = has_section && !is_map(lane) ? GM_AT_SECTION : GM_AT_STEP;
     if (at) {
         size_t place = 0;
         while (place < GM_COUNT(places) && strcmp(places[place], at) != 0) {
@@ -379,13 +389,16 @@ static void push(const struct following *following, double t, double value)
     pair[1] = value;
 }
 
-/* Takes a maximum at the middle of the last three values. */
+/* Takes a maximum at the middle of the last three values: of a map that value, else that of the parabola through
+   them. */
 static void push_maximum(const struct following *following)
 {
     const double(*last)[2] = following->last;
     const double left = last[1][1] - last[2][1], right = last[1][1] - last[0][1], h = last[0][0] - last[1][0];
     if (following->drive->lane->run->steps >= 2 && left > 0 && right >= 0) {
-        const double from = (left - right) / (2 * (left + right)); /* of the middle, in steps */
+        const double from = is_map(following->drive->lane)
+                                ? 0
+                                : (left - right) / (2 * (left + right)); /* of the middle, in steps */
         push(following, last[1][0] + from * h, last[1][1] + from * (left - right) / 4);
     }
 }
@@ -506,7 +519,8 @@ void gm_sweep_open(struct gm_arena *arena, struct gm_sweep *sweep, const struct 
     }
     sweep->arguments = gm_arena_keep(arena, gm_words_join(sweep->scene, &sweep->words), free);
     sweep->head = gm_arena_keep(arena, text_of(sweep, 0, write_head), free);
-    sweep->status = 1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL);
+    sweep->status =
+        1 + sweep->words.count - (gm_words_find(&sweep->words, "zip") != NULL) + (sweep->values != NULL);
     sweep->index = sweep->values ? sweep->status + GM_SWEEP_COSTS + sweep->chosen.count : 0;
 }
 

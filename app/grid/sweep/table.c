@@ -121,8 +121,9 @@ static void refuse_row(const struct gm_sweep_table *table, const char *line)
         table->path, row + 1, gm_sweep_run(sweep, later));
     gm_arena_refuse(
         table->arena,
-        "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
-        table->path, row + 1, gm_sweep_run(sweep, row));
+        "%.300s is not a table of this sweep: its row %zu is not that of run %zu%s%.60s%s%s; it is left as it is",
+        table->path, row + 1, gm_sweep_run(sweep, row), sweep->values ? " with --values " : "",
+        sweep->values ? sweep->values : "", sweep->values ? " --at " : "", sweep->values ? sweep->at : "");
 }
 
 /* Reads the head; an empty table or an incomplete head has none. Refuses another head. */

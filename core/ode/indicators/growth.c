@@ -215,18 +215,34 @@ static double log_volume_of(const struct gm_growth *growth)
     return sum;
 }
 
+/* The number of times that events and breaks happened. */
+static double happened(const struct gm_growth *growth)
+{
+    const struct gm_events *events = growth->problem.events;
+    double sum = 0;
+    for (size_t i = 0; events && i < events->count; i++) {
+        sum += gm_events_happened(&growth->problem, gm_run_events(growth->run), i);
+    }
+    return sum;
+}
+
 /* Makes a step with all vectors, and fills what it made of the first one. Returns the number of steps made. */
 static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
 {
     struct gm_run *run = growth->run;
     *made = (struct gm_stretch){.length = NAN};
-    const double t = run->t, before = divergence_at(growth, run);
+    const double t = run->t, before = divergence_at(growth, run), volume = log_volume_of(growth),
+                 events = happened(growth);
     gm_run_set_state(growth->half, gm_run_state(run), NULL);
     const double middle =
         gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
     const bool stepped = gm_tangent_step(growth->tangent, growth->v, growth->vectors);
     *made = (struct gm_stretch){run->t, orthonormalise(growth)};
-    growth->divergence += (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run));
+    const double grown = log_volume_of(growth);
+    growth->divergence += happened(growth) == events
+                              ? (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run))
+                          : grown == volume ? 0 /* a volume of 0 stays */
+                                            : grown - volume;
     return stepped;
 }
 

@@ -15,7 +15,7 @@
 #include "core/ode/ode.h"
 
 enum { MOST_ITERATIONS = 50, LEAST_STEPS = 64, MOST_STEPS = 1 << 18 };
-static const double settled = 1e-11, resolved = 1e-6, stalled = 1e-9, smallest_factor = 0x1p-12;
+static const double settled = 2e-12, resolved = 1e-6, stalled = 1e-9, smallest_factor = 0x1p-12;
 
 struct search {
     struct gm_periodic *orbit;
@@ -27,9 +27,30 @@ struct search {
     size_t stride;  /* of a column */
     double *matrix; /* size * size by rows */
     double *change, *trial, *slope;
-    bool across;  /* corrections are normal to f */
-    double guess; /* of the period */
+    double *gap;    /* y - phi_T(y) */
+    double extent;  /* the largest distance from the start along the orbit */
+    double first;   /* extent of the first guess */
+    double largest; /* component of the first guess */
+    bool across;    /* corrections are normal to f */
+    double guess;   /* of the period */
 };
+
+/* The difference of a component, of an angle between -pi and pi. */
+static double difference(const struct gm_problem *problem, size_t c, double a, double b)
+{
+    const bool *angles = gm_ode_of(problem)->angles;
+    return a - b - (angles && angles[c] ? 2 * M_PI * round((a - b) / (2 * M_PI)) : 0);
+}
+
+static double distance(const struct search *search, const double *a, const double *b)
+{
+    double square = 0;
+    for (size_t c = 0; c < search->n; c++) {
+        const double apart = difference(search->orbit->problem, c, a[c], b[c]);
+        square += apart * apart;
+    }
+    return sqrt(square);
+}
 
 static struct gm_run *open_run(const struct gm_periodic *orbit, struct gm_arena *arena, const double *y,
                                double dt)
@@ -45,9 +66,10 @@ static double follow(struct search *search, const double *y, double period, bool
     const struct gm_periodic *orbit = search->orbit;
     const size_t mark = gm_arena_mark(search->arena);
     struct gm_run *run = open_run(orbit, search->arena, y, period / (double)orbit->steps);
+    struct gm_tangent *tangent = NULL;
     bool good = run->status == GM_OK;
     if (with_frame) {
-        struct gm_tangent *tangent = gm_tangent_open(run);
+        tangent = gm_tangent_open(run);
         gm_arena_keep(search->arena, tangent, gm_tangent_close);
         search->stride = gm_tangent_size(tangent);
         memset(search->frame, 0, search->n * search->stride * sizeof *search->frame);
@@ -55,29 +77,35 @@ static double follow(struct search *search, const double *y, double period, bool
             search->frame[k * search->stride + k] = 1;
             good = good && gm_tangent_begin(tangent, search->frame + k * search->stride);
         }
-        for (int64_t i = 0; i < orbit->steps && good; i++) {
-            good = gm_tangent_step(tangent, search->frame, search->n);
-        }
-    } else {
-        good = good && gm_run_advance(run, orbit->steps) == GM_OK;
     }
-    double square = 0;
+    double farthest = 0;
+    for (int64_t i = 0; i < orbit->steps && good; i++) {
+        good = tangent ? gm_tangent_step(tangent, search->frame, search->n) : gm_run_advance(run, 1) == GM_OK;
+        farthest = fmax(farthest, distance(search, gm_run_state(run), y));
+    }
+    search->extent = y == orbit->start ? farthest : search->extent;
     memcpy(search->end, gm_run_state(run), orbit->problem->n * sizeof(double));
     for (size_t c = 0; c < search->n; c++) {
-        square += (search->end[c] - y[c]) * (search->end[c] - y[c]);
+        search->gap[c] = difference(orbit->problem, c, y[c], search->end[c]);
     }
+    const double residual = distance(search, search->end, y);
     gm_arena_release(search->arena, mark);
-    return good && isfinite(square) ? sqrt(square) : INFINITY;
+    return good && isfinite(residual) ? residual : INFINITY;
 }
 
-/* Returns the size that errors are compared with, 1 + the largest component. */
-static double scale_of(const struct search *search)
+static double largest_of(const struct search *search)
 {
-    double largest = 0;
+    double largest = search->largest;
     for (size_t c = 0; c < search->n; c++) {
         largest = fmax(largest, fabs(search->orbit->start[c]));
     }
-    return 1 + largest;
+    return largest;
+}
+
+/* Returns a part of the orbit's extent, but not less than the rounding of its components. */
+static double part_of(const struct search *search, double part)
+{
+    return fmax(part * search->extent, 32 * GM_EPSILON * largest_of(search));
 }
 
 /* Makes a matrix, n * n, that gives 0 for a direction, so that the shortest solutions are normal to it. */
@@ -107,24 +135,31 @@ static bool solve(struct search *search)
         for (size_t k = 0; k < n; k++) {
             search->matrix[i * size + k] = search->frame[k * search->stride + i] - (i == k);
         }
-        search->change[i] = orbit->start[i] - search->end[i];
+        search->change[i] = search->gap[i];
     }
     if (search->across) {
         gm_field(orbit->problem, orbit->start, search->slope, 1);
         leave_out(search->matrix, search->slope, n);
     }
-    if (orbit->free) {
-        gm_field(orbit->problem, search->end, search->slope, 1);
+    double speeds[2] = {1,
+                        1}; /* |f|, in units of which the period and the last equation are of the size of M */
+    for (int side = 0; side < 2 && orbit->free; side++) {
+        gm_field(orbit->problem, side == 0 ? search->end : orbit->start, search->slope, 1);
+        double square = 0;
         for (size_t i = 0; i < n; i++) {
-            search->matrix[i * size + n] = search->slope[i];
+            square += search->slope[i] * search->slope[i];
         }
-        gm_field(orbit->problem, orbit->start, search->slope, 1);
-        for (size_t k = 0; k < n; k++) {
-            search->matrix[n * size + k] = orbit->held == SIZE_MAX ? search->slope[k] : k == orbit->held;
+        speeds[side] = square > 0 ? sqrt(square) : 1;
+        for (size_t i = 0; i < n; i++) {
+            const double part = search->slope[i] / speeds[side];
+            search->matrix[side == 0 ? i * size + n : n * size + i] =
+                side == 0 || orbit->held == SIZE_MAX ? part : i == orbit->held;
         }
         search->matrix[n * size + n] = search->change[n] = 0;
     }
-    return gm_singular_solve(search->matrix, size, 1e-9, search->change);
+    const bool solved = gm_singular_solve(search->matrix, size, 1e-9, search->change);
+    search->change[n] /= speeds[0];
+    return solved;
 }
 
 /* Makes the change, halved until the residual falls below `residual`, which is that of the start. Returns false, and
@@ -133,7 +168,7 @@ static bool correct(struct search *search, double residual)
 {
     struct gm_periodic *orbit = search->orbit;
     /* next to the solution only round-off is left, which no shorter change reduces */
-    const double least = residual <= stalled * scale_of(search) ? 1 : smallest_factor;
+    const double least = residual <= part_of(search, stalled) ? 1 : smallest_factor;
     memcpy(search->trial, orbit->start, orbit->problem->n * sizeof(double));
     for (double factor = 1; factor >= least; factor /= 2) {
         const double period = orbit->period + (orbit->free ? factor * search->change[search->n] : 0);
@@ -158,7 +193,7 @@ static double roundoff_of(const struct search *search)
         const double entry = search->frame[i / search->n * search->stride + i % search->n];
         square += entry * entry;
     }
-    return GM_EPSILON * sqrt(square) * scale_of(search);
+    return GM_EPSILON * sqrt(square) * largest_of(search);
 }
 
 /* Iterates with these steps; the frame is that of the orbit at the end. The orbits of a Hamiltonian system are in
@@ -175,10 +210,8 @@ static void iterate(struct search *search)
             return;
         }
         search->across = search->across && corrected;
-        if (corrected) {
-            orbit->iterations++;
-            orbit->residual = follow(search, orbit->start, orbit->period, true);
-        }
+        orbit->iterations += corrected;
+        orbit->residual = follow(search, orbit->start, orbit->period, true);
     }
 }
 
@@ -201,8 +234,7 @@ static bool refine(struct search *search)
         for (size_t c = 0; c < n && there; c++) {
             apart = fmax(apart, fabs(search->end[c] - search->trial[c]));
         }
-        done = apart < settled * scale_of(search) ||
-               (before < resolved * scale_of(search) && apart > before / 8);
+        done = apart <= part_of(search, settled) || (before < part_of(search, resolved) && apart > before / 8);
     }
     const bool halved = orbit->steps > 2 * first;
     orbit->steps /= done ? 2 : 1;
@@ -218,7 +250,7 @@ static void adjust_period(struct search *search)
         double along = 0, square = 0;
         gm_field(orbit->problem, search->end, search->slope, 1);
         for (size_t c = 0; c < search->n; c++) {
-            along += search->slope[c] * (orbit->start[c] - search->end[c]);
+            along += search->slope[c] * search->gap[c];
             square += search->slope[c] * search->slope[c];
         }
         const double period = orbit->period + along / square;
@@ -226,7 +258,7 @@ static void adjust_period(struct search *search)
         residual = period > 0 ? follow(search, orbit->start, period, false) : INFINITY;
         orbit->period = residual < before ? period : orbit->period;
     }
-    orbit->period = fmin(residual, before) <= resolved * scale_of(search) ? orbit->period : search->guess;
+    orbit->period = fmin(residual, before) <= part_of(search, resolved) ? orbit->period : search->guess;
 }
 
 /* An orbit that closes several times in its period has a shorter one: a start far away may return only after some
@@ -237,7 +269,8 @@ static void shorten(struct search *search)
     struct gm_periodic *orbit = search->orbit;
     for (int turns = MOST_TURNS; turns > 1; turns--) {
         const double period = orbit->period / turns;
-        if (follow(search, orbit->start, period, false) <= stalled * scale_of(search)) {
+        const double most = part_of(search, stalled);
+        if (follow(search, orbit->start, period, false) <= most) {
             orbit->period = search->guess = period;
             iterate(search);
             return;
@@ -250,10 +283,14 @@ static void find_multipliers(struct search *search)
 {
     struct gm_periodic *orbit = search->orbit;
     const size_t n = search->n;
-    double *re = orbit->multipliers, *im = re + n;
+    double *re = orbit->multipliers, *im = re + n, square = 0;
     for (size_t i = 0; i < n * n; i++) {
         search->matrix[i] = search->frame[i % n * search->stride + i / n];
+        square += search->matrix[i] * search->matrix[i];
     }
+    const bool exact = strcmp(gm_tangent_word(orbit->scheme), "exact") == 0;
+    orbit->error =
+        (exact ? 1e-12 : 1e-7) * fmax(1, sqrt(square)); /* of steps, and of differences between them */
     orbit->count = orbit->status == GM_PERIODIC_FOUND && gm_eigenvalues(search->matrix, n, re, im) ? n : 0;
     for (size_t i = 1; i < orbit->count; i++) {
         const double x = re[i], y = im[i];
@@ -282,10 +319,14 @@ static void find(struct gm_arena *arena, void *data)
     search.trial = gm_arena_take(arena, all, sizeof(double));
     search.slope = gm_arena_take(arena, all, sizeof(double));
     search.change = gm_arena_take(arena, all + 1, sizeof(double));
+    search.gap = gm_arena_take(arena, all, sizeof(double));
     search.frame = gm_arena_take(arena, all * (all + memory), sizeof(double));
     search.matrix = gm_arena_take(arena, (all + 1) * (all + 1), sizeof(double));
     orbit->iterations = 0;
     search.guess = orbit->period;
+    search.largest = largest_of(&search);
+    follow(&search, orbit->start, orbit->period, false);
+    search.first = search.extent;
     if (orbit->refined) {
         orbit->steps = LEAST_STEPS;
         refine(&search);
@@ -295,17 +336,19 @@ static void find(struct gm_arena *arena, void *data)
     }
     do {
         iterate(&search);
-    } while (orbit->refined && orbit->residual <= stalled * scale_of(&search) && refine(&search));
+    } while (orbit->refined && orbit->residual <= part_of(&search, stalled) && refine(&search));
     /* next to an equilibrium of weak decay the residual is small, but not against the motion */
-    const double least = fmax(1e-10, 1e6 * orbit->residual / orbit->period);
+    const double least = fmax(1e6 * orbit->residual, 64 * GM_EPSILON * largest_of(&search)) / orbit->period;
     double fastest = 0;
     gm_field(orbit->problem, orbit->start, search.slope, 1);
     for (size_t c = 0; c < search.n; c++) {
         fastest = fmax(fastest, fabs(search.slope[c]));
     }
-    orbit->status = !(orbit->residual <= stalled * scale_of(&search)) ? GM_PERIODIC_NO_CONVERGENCE
-                    : orbit->free && fastest < least                  ? GM_PERIODIC_EQUILIBRIUM
-                                                                      : GM_PERIODIC_FOUND;
+    const bool closed = orbit->residual <= part_of(&search, stalled),
+               shrank = isfinite(orbit->residual) && search.extent <= 1e-8 * search.first;
+    orbit->status = orbit->free && (shrank || (closed && fastest <= least)) ? GM_PERIODIC_EQUILIBRIUM
+                    : closed                                                ? GM_PERIODIC_FOUND
+                                                                            : GM_PERIODIC_NO_CONVERGENCE;
     if (orbit->free && orbit->status == GM_PERIODIC_FOUND) {
         shorten(&search);
     }
@@ -334,7 +377,7 @@ static void return_once(struct gm_arena *arena, void *data)
     for (int64_t i = 1; i <= returning->steps && gm_run_advance(run, 1) == GM_OK; i++) {
         double beyond = 0, square = 0;
         for (size_t c = 0; c < n; c++) {
-            const double away = gm_run_state(run)[c] - orbit->start[c];
+            const double away = difference(orbit->problem, c, gm_run_state(run)[c], orbit->start[c]);
             beyond += normal[c] * away;
             square += away * away;
         }
@@ -357,21 +400,121 @@ double gm_first_return(struct gm_periodic *orbit, double dt, int64_t steps)
     return returning.time;
 }
 
+struct fitting {
+    const struct gm_periodic *orbit;
+    struct gm_period_miss *miss;
+    bool fits;
+};
+
+/* Compares at a time without a simple ratio to the period, where a driving force seldom jumps, with what the time
+   changes within the period. */
+static void fit(struct gm_arena *arena, void *data)
+{
+    enum { STATES = 8, APART = 8, PARTS = 8 };
+    struct fitting *fitting = data;
+    const struct gm_periodic *orbit = fitting->orbit;
+    const size_t n = orbit->problem->n;
+    double *y = gm_arena_take(arena, 4 * n, sizeof *y), *at = y + n, *later = at + n, *change = later + n;
+    struct gm_run *run = open_run(orbit, arena, orbit->start, orbit->period / (STATES * APART));
+    for (int k = 0; k < STATES && fitting->fits && run->status == GM_OK; k++) {
+        memcpy(y, gm_run_state(run), n * sizeof *y);
+        const double t = y[n - 1] += 0.37 * run->dt;
+        gm_field(orbit->problem, y, at, 1);
+        memset(change, 0, n * sizeof *change);
+        for (int part = 1; part <= PARTS; part++) {
+            y[n - 1] = t + orbit->period * part / PARTS;
+            gm_field(orbit->problem, y, later, 1);
+            for (size_t c = 0; c < n - 1 && part < PARTS; c++) {
+                change[c] = fmax(change[c], fabs(later[c] - at[c]));
+            }
+        }
+        for (size_t c = 0; c < n - 1 && fitting->fits; c++) {
+            const double rounding = 64 * GM_EPSILON * (fabs(at[c]) + fabs(later[c]));
+            fitting->fits = !(fabs(later[c] - at[c]) > 1e-6 * change[c] + rounding);
+            *fitting->miss = (struct gm_period_miss){c, t, {at[c], later[c]}};
+        }
+        gm_run_advance(run, APART);
+    }
+}
+
+bool gm_period_fits(const struct gm_periodic *orbit, struct gm_period_miss *miss)
+{
+    struct fitting fitting = {orbit, miss, true};
+    gm_arena_run_once(fit, &fitting);
+    return fitting.fits;
+}
+
+struct resting {
+    const struct gm_periodic *orbit;
+    double dt;
+    bool rests;
+};
+
+static void look_at_start(struct gm_arena *arena, void *data)
+{
+    struct resting *resting = data;
+    const struct gm_problem *problem = resting->orbit->problem;
+    double *slope = gm_arena_take(arena, problem->n, sizeof *slope), fastest = 0, largest = 0;
+    gm_field(problem, resting->orbit->start, slope, 1);
+    for (size_t c = 0; c < problem->n; c++) {
+        fastest = fmax(fastest, fabs(slope[c]));
+        largest = fmax(largest, fabs(resting->orbit->start[c]));
+    }
+    resting->rests = fastest * resting->dt <= GM_EPSILON * largest;
+}
+
+bool gm_start_rests(const struct gm_periodic *orbit, double dt)
+{
+    struct resting resting = {orbit, dt, false};
+    gm_arena_run_once(look_at_start, &resting);
+    return resting.rests;
+}
+
+/* The number of multipliers that are at most so far from 1 as one of them. */
+static size_t nearer_than(const struct gm_periodic *orbit, size_t i)
+{
+    const double *re = orbit->multipliers, *im = re + orbit->count;
+    size_t nearer = 0;
+    for (size_t k = 0; k < orbit->count; k++) {
+        const double one = gm_hypot(re[k] - 1, im[k]), own = gm_hypot(re[i] - 1, im[i]);
+        nearer += one < own || (one == own && k < i);
+    }
+    return nearer;
+}
+
+/* The number of multipliers that cannot be distinguished from a root 1 of this order. */
+static size_t count_ones(const struct gm_periodic *orbit)
+{
+    const double *re = orbit->multipliers, *im = re + orbit->count;
+    size_t ones = 0;
+    for (size_t i = 0; i < orbit->count; i++) {
+        const size_t order = nearer_than(orbit, i) + 1;
+        const bool close = gm_hypot(re[i] - 1, im[i]) <= gm_pow(orbit->error, 1 / (double)order);
+        ones = close && order > ones ? order : ones;
+    }
+    return ones;
+}
+
+double gm_multiplier_error(const struct gm_periodic *orbit, size_t i)
+{
+    const size_t ones = count_ones(orbit);
+    return nearer_than(orbit, i) < ones ? gm_pow(orbit->error, 1 / (double)ones) : orbit->error;
+}
+
 const char *gm_periodic_kind(const struct gm_periodic *orbit)
 {
     const double close = 1e-5;
     const double *re = orbit->multipliers, *im = re + orbit->count;
     double volume = 0, farthest = 0, real = 0;
+    const size_t ones = count_ones(orbit);
     bool near = false;
     for (size_t i = 0; i < orbit->count; i++) {
-        size_t nearer = 0;
-        for (size_t k = 0; k < orbit->count; k++) { /* those nearest to 1 are those of the structure */
-            const double one = gm_hypot(re[k] - 1, im[k]), own = gm_hypot(re[i] - 1, im[i]);
-            nearer += one < own || (one == own && k < i);
-        }
+        const size_t nearer = nearer_than(orbit, i);
         const double modulus = gm_hypot(re[i], im[i]);
         volume += gm_log(modulus);
-        if (nearer < orbit->by_structure) {
+        if (nearer < orbit->by_structure ||
+            nearer < ones) { /* those nearest to 1 are those of the structure */
+            near = near || nearer >= orbit->by_structure;
             continue;
         }
         if (modulus > farthest) {

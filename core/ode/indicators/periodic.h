@@ -22,7 +22,7 @@ struct gm_periodic {
     const struct gm_settings *settings;
     double t0;
     bool free;           /* the period is unknown: a flow */
-    bool refined;        /* steps are halved until the residual changes by less than 1e-11 */
+    bool refined;        /* steps are halved until the end changes by less than 2e-12 of the extent */
     size_t held;         /* the component that is held; SIZE_MAX: the correction is normal to f */
     size_t by_structure; /* multipliers that are 1 by the structure of the problem */
     /* A first guess, then the orbit. */
@@ -36,7 +36,20 @@ struct gm_periodic {
     double
         *multipliers; /* the real parts of n eigenvalues of M by falling modulus, then the imaginary ones */
     size_t count;     /* their number: without the time, if that is a component; 0: no orbit was found */
+    double error;     /* the error of a single multiplier */
 };
+
+/* Rates of the same state, at a time and a period later. */
+struct gm_period_miss {
+    size_t component;
+    double t, rates[2];
+};
+/* Returns true unless the right side has another period, at one of several states along the motion; or when out of
+   memory. */
+bool gm_period_fits(const struct gm_periodic *orbit, struct gm_period_miss *miss);
+
+/* Returns true if the motion rests at the start: f in a step of dt is below the rounding of the state. */
+bool gm_start_rests(const struct gm_periodic *orbit, double dt);
 
 /* Returns the time of the first return to the plane through y normal to f(y), in the direction of f and within half of
    the largest distance from y so far, with steps of dt. NAN if `steps` steps have none: the start is then the state after
@@ -49,5 +62,9 @@ bool gm_periodic_find(struct gm_periodic *orbit);
 /* "elliptic", "hyperbolic", "inverse hyperbolic" or "parabolic" of a map that preserves volume, else "stable",
    "unstable" or "parabolic", by the multipliers beside those of the structure. */
 const char *gm_periodic_kind(const struct gm_periodic *orbit);
+
+/* The error of multiplier i. Of k that are close to 1, which may be a root of order k, it is the k-th root of that of
+   one. */
+double gm_multiplier_error(const struct gm_periodic *orbit, size_t i);
 
 #endif

@@ -465,8 +465,13 @@ static void open_problem(struct gm_arena *arena, void *data)
         self->free = self->loops;
         self->loops = (struct gm_loops){.field = gm_manifold_field};
     }
+    bool *angles = gm_arena_take(arena, system->n + 1, sizeof *angles);
+    for (size_t i = 0; i < system->n; i++) {
+        angles[i] = system->variables[i].angle;
+    }
     self->ode = (struct gm_ode){.written = true,
                                 .components = model->names[0] ? model->names : NULL,
+                                .angles = angles,
                                 .quadratic = !constrained && holds(self, GM_FACT_QUADRATIC),
                                 .linear = !constrained && holds(self, GM_FACT_LINEAR) &&
                                           holds(self, GM_FACT_AUTONOMOUS),

@@ -594,7 +594,8 @@ const struct gm_observable gm_ode_asked[GM_ODE_ASKED + GM_RING_OBSERVABLES] = {
 
 static const struct gm_observable spectrum_rows[] = {
     INDICATOR("lyapunov_sum", lyapunov_sum, why_no_volume, true, "sum of the Lyapunov exponents"),
-    INDICATOR("divergence_mean", divergence_mean, why_no_volume, true, "mean of div f"),
+    INDICATOR("divergence_mean", divergence_mean, why_no_volume, true,
+              "mean of div f, and of ln |det S| at events"),
     INDICATOR("lyapunov_dimension", lyapunov_dimension, why_no_volume, true, "dimension of Kaplan and Yorke"),
 };
 
