@@ -603,7 +603,7 @@ static void refuse_words(const struct typing *typing)
 
 static void put_typed(struct gm_arena *arena, void *data)
 {
-    static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", "mesh", NULL};
+    static const char *const of_files[] = {"bracket", "V", "K-matrix", "L-matrix", "mesh", "let", NULL};
     struct typing *typing = data;
     struct gm_typed_file *file = typing->file;
     const char *value;

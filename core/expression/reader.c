@@ -176,6 +176,8 @@ _Noreturn static void expected(struct reader *reader, const char *what)
         fail(reader, reader->at, "the character 0x%02x has no meaning; %s was expected", (unsigned char)*here,
              what);
     }
+    fail_if(reader, *here == '<' || *here == '>', reader->at,
+            "a comparison is a condition, not a number; if(a %c b, 1, 0) is one", *here);
     fail(reader, reader->at, "%s was expected, not \"%.*s\"", what, (int)length, here);
 }
 
@@ -392,7 +394,8 @@ struct loop {
 static void need_room_for(struct reader *reader, size_t place, int64_t operands)
 {
     if (operands > (int64_t)MOST_OPERANDS * OF_AN_INDEX) {
-        fail(reader, place, "the formula, with its loops written out, has more than %d operands",
+        fail(reader, place,
+             "the formula, with its loops and functions written out, has more than %d operands",
              MOST_OPERANDS);
     }
 }
@@ -725,6 +728,30 @@ static gm_node_id read_body(struct reader *reader, struct call *call)
     return node;
 }
 
+/* Returns how many operands the body of a function has at least: one, and those of the functions that it calls. */
+static int64_t least_operands(struct reader *reader, struct gm_definition *definition, int depth)
+{
+    if (definition->least > 0 || depth > DEEPEST) {
+        return definition->least > 0 ? definition->least : 1;
+    }
+    int64_t sum = definition->least =
+        1; /* also while it is counted: a recursive function is refused elsewhere */
+    for (size_t at = definition->body.begin, length; at < definition->body.end;
+         at += length + (length == 0)) {
+        length = gm_name_length(reader->text + at, definition->body.end - at);
+        const char *after = reader->text + at + length;
+        const size_t blanks = strspn(after, " \t");
+        struct gm_definition *called =
+            length > 0 && after[blanks] == '('
+                ? reader->scope.definition(reader->scope.data, reader->text + at, length)
+                : NULL;
+        sum += called ? least_operands(reader, called, depth + 1) : 0;
+        sum = sum > MOST_OPERANDS ? MOST_OPERANDS + 1 : sum;
+    }
+    definition->least = sum;
+    return sum;
+}
+
 /* Reads the operands and ) of a call, then the body. */
 static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_definition *definition)
 {
@@ -751,15 +778,22 @@ static gm_node_id read_defined(struct reader *reader, size_t begin, struct gm_de
     for (const struct call *caller = reader->call; caller; caller = caller->caller) {
         fail_if(reader, caller->definition == definition, begin, "%.*s is defined by itself", length, name);
     }
+    need_room_for(reader, begin,
+                  reader->operands +
+                      least_operands(reader, definition, 0) * (reader->fixed > 0 ? 1 : OF_AN_INDEX));
     return read_body(reader, &call);
 }
 
-/* Takes (0). */
+/* Takes (0), also as 0.0. */
 static bool take_zero(struct reader *reader)
 {
     const size_t begin = reader->at;
-    if (take(reader, '(') && take(reader, '0') && take(reader, ')')) {
-        return true;
+    char *end;
+    if (take(reader, '(') && strchr("0.", peek(reader)) && strtod(reader->text + reader->at, &end) == 0) {
+        reader->at = (size_t)(end - reader->text);
+        if (take(reader, ')')) {
+            return true;
+        }
     }
     reader->at = begin;
     return false;
@@ -789,6 +823,15 @@ _Noreturn static void refuse_call(struct reader *reader, const struct gm_name *n
     const bool brief_too = length < 40 && !memchr(inside, '\n', length);
     const char *shown = brief_too ? inside : "...";
     strtod(inside, &end);
+    bool timed = false;
+    for (size_t i = 0; i < length; i++) {
+        timed |= inside[i] == 't' && gm_name_length(inside + i, length - i) == 1 &&
+                 (i == 0 || gm_name_length(inside + i - 1, 2) == 0);
+    }
+    fail_if(reader, end != inside + length && !timed, begin,
+            "%.*s(%.*s): %.*s is not a function; a product is written with *: %.*s*(%.*s)", brief, name->text,
+            brief_too ? (int)length : 3, shown, brief, name->text, brief, name->text,
+            brief_too ? (int)length : 3, shown);
     fail(reader, begin,
          length > 0 && end == inside + length
              ? "%.*s(%.*s): only %.*s(0), the start, is known"

@@ -65,6 +65,7 @@ struct gm_span {
 struct gm_definition {
     struct gm_span name, arguments[GM_MOST_ARGUMENTS], body;
     size_t count;
+    int64_t least; /* operands that its body has at least; 0: not counted yet */
     bool called;
 };
 

@@ -16,15 +16,16 @@ enum { SUM = 10, PRODUCT = 11, SIGN = 12, RAISED = 14, WHOLE = 20 };
 
 /* The texts of a notation around operands and between them. */
 static const struct notation {
-    const char *open, *close, *times, *raise, *raised, *negation, *conjunction, *choice;
-} plain = {"(", ")", "*", "^", "", "not (", ") and (", "if("}, latex = {"\\left(",
-                                                                        "\\right)",
-                                                                        "\\,",
-                                                                        "^{",
-                                                                        "}",
-                                                                        "\\neg\\left(",
-                                                                        "\\right) \\wedge \\left(",
-                                                                        "\\operatorname{if}("};
+    const char *open, *close, *times, *raise, *raised, *negation, *conjunction, *disjunction, *choice;
+} plain = {"(", ")", "*", "^", "", "not (", ") and (", ") or (", "if("}, latex = {"\\left(",
+                                                                                  "\\right)",
+                                                                                  "\\,",
+                                                                                  "^{",
+                                                                                  "}",
+                                                                                  "\\neg\\left(",
+                                                                                  "\\right) \\wedge \\left(",
+                                                                                  "\\right) \\vee \\left(",
+                                                                                  "\\operatorname{if}("};
 
 struct writer {
     const struct gm_formula *graph;
@@ -175,22 +176,27 @@ static void write_power(const struct writer *writer, const struct gm_node *here)
 
 static void write_condition(const struct writer *writer, gm_node_id node)
 {
-    const struct gm_node *here = &writer->graph->nodes[node];
+    const struct gm_node *nodes = writer->graph->nodes, *here = &nodes[node], *rest = here;
     const struct notation *notation = writer->notation;
+    if (here->operation == GM_OPERATION_SUBTRACT && nodes[here->b].operation == GM_OPERATION_MULTIPLY) {
+        rest = &nodes[here->b]; /* not (not a and not b) is a or b */
+    }
+    const bool either = rest != here && nodes[rest->a].operation == GM_OPERATION_SUBTRACT &&
+                        nodes[rest->b].operation == GM_OPERATION_SUBTRACT;
     if (here->operation == GM_OPERATION_BELOW) {
         write_pair(writer, "", here->a, " < ", here->b, "");
+    } else if (either || here->operation == GM_OPERATION_MULTIPLY) {
+        fputs(notation->open, writer->out);
+        write_condition(writer, either ? nodes[rest->a].b : here->a);
+        fputs(either ? notation->disjunction : notation->conjunction, writer->out);
+        write_condition(writer, either ? nodes[rest->b].b : here->b);
+        fputs(notation->close, writer->out);
     } else if (here->operation == GM_OPERATION_SUBTRACT) { /* from 1 */
         fputs(notation->negation, writer->out);
         write_condition(writer, here->b);
         fputs(notation->close, writer->out);
-    } else if (here->operation != GM_OPERATION_MULTIPLY) {
-        write_pair(writer, "", node, " > 0", GM_NO_NODE, "");
     } else {
-        fputs(notation->open, writer->out);
-        write_condition(writer, here->a);
-        fputs(notation->conjunction, writer->out);
-        write_condition(writer, here->b);
-        fputs(notation->close, writer->out);
+        write_pair(writer, "", node, " > 0", GM_NO_NODE, "");
     }
 }
 

@@ -97,6 +97,18 @@ for law in 'abs(x) - x' 'min(x, 3) - x' 'sqrt(x^2) - x'; do
     printf 'components: x\nrate: x = 1\ninvariant: s = %s\nstart: x = 1\n' "$law" >kink.system
     "$geomint" run ./kink.system steps=1 >out 2>&1 && fail "the invariant $law: $(cat out)"
 done
+# functions of functions that would be too many operands are refused before they are written out; x(0.0) is x(0)
+{
+    printf 'let: f0(v) = v*v\n'
+    for i in $(seq 40); do printf 'let: f%d(v) = f%d(v + %d) + f%d(v)\n' "$i" $((i - 1)) "$i" $((i - 1)); done
+    printf 'rate: x = f40(x)\nstart: x = 1\n'
+} >deep.system
+refused 1 'deep.system:42:11: the formula, with its loops and functions written out, has more than' run ./deep.system
+(ulimit -t 1 && "$geomint" run ./deep.system >out 2>&1)
+[ $? = 1 ] || fail "a deep function is not refused within a second"
+"$geomint" run system rate='x = x(0) - x' x=1 until=1 --state --json | sed 's/.*"state"//' >state.txt
+"$geomint" run system rate='x = x(0.0) - x' x=1 until=1 --state --json | sed 's/.*"state"//' | cmp -s - state.txt || fail 'x(0.0)'
+refused 1 "let= replaces a line of a system's file" run system rate='x = m(x)' let='m(v) = v^2' x=1
 # derivatives prove nothing across a jump that the motion passes; they do where it does not pass, or nothing jumps
 claim() { # LINES PATTERN
     printf "$1" >jump.system

@@ -244,7 +244,7 @@ static void print_json(const struct work *work)
 /* A number of at most this many digits, without those below its error. */
 static const char *known_digits(const struct work *work, double value, double error, int most)
 {
-    const double digits = fmin(most, floor(log10(fabs(value) / error)) + 1);
+    const double digits = fmin(most, floor(gm_log(fabs(value) / error) / gm_log(10)) + 1);
     return gm_arena_print(work->options->arena, "%.*g", (int)fmax(1, digits), value);
 }
 
