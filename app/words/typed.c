@@ -159,6 +159,17 @@ static void fail(struct gm_typed_fault *fault, const char *message)
     fault->sentence[length] = '\0';
 }
 
+/* Leaves what a scheme lacks: the scheme and the scene are in view, and a command cannot be given here. */
+static void shorten(char *sentence)
+{
+    const char *lacks = strstr(sentence, "it needs "), *command = strstr(sentence, "; geomint list ");
+    if (lacks && command > lacks) {
+        const size_t length = (size_t)(command - lacks);
+        memmove(sentence, lacks, length);
+        sentence[length] = '\0';
+    }
+}
+
 /* The place of a key's value, or, for an unknown key, of the key. */
 static struct gm_word_place word_of(const struct gm_arguments *words, const struct gm_scene *scene,
                                     const char *key)
@@ -208,6 +219,9 @@ bool gm_typed_request(struct gm_request *request, const char *line, size_t schem
                    *unfit = word ? strstr(word, made->unfit->name) : NULL;
         place.offset = unfit ? (size_t)(unfit - word) + made->unfit_offset : place.offset;
         fail(fault, message);
+        if (made->unfit) {
+            shorten(fault->sentence);
+        }
         const bool shown = place.word >= 0 && place.word >= shift;
         fault->at = shown ? (long)place_of(line, place.word - shift, place.offset) : -1;
     } else if (request) {

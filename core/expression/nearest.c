@@ -12,7 +12,7 @@ static size_t distance(const char *a, const char *b)
 {
     const size_t m = strlen(a), n = strlen(b);
     if (m > LONGEST || n > LONGEST) {
-        return LONGEST;
+        return m > n ? m : n;
     }
     size_t rows[3][LONGEST + 1];
     size_t *before = rows[0], *above = rows[1], *row = rows[2];

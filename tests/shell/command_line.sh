@@ -434,6 +434,17 @@ status 0 work-precision kepler scheme=rk4,verlet until=2 --measure modified_ener
 grep -q 'none: RK4 is not symplectic' out || fail "no reason of an empty row: $(cat out)"
 status 0 work-precision kepler scheme=rk4,verlet until=2 --measure modified_energy2_error -o none.png --json
 grep '"scheme":"rk4"' out | grep -q '"reason":"RK4 is not symplectic' || fail "no reason in JSON: $(cat out)"
+# a step that goes on for a thousand times the run, where the reference would take millions of steps, has no error
+status 0 work-precision outer-planets scheme=logh-kahan-li8,verlet dt=2.5 -o none.png --json
+grep '"scheme":"logh-kahan-li8"' out | grep -q '"status":"ok","error":null' || fail "an error without a reference: $(cat out)"
+grep '"scheme":"verlet"' out | grep -q '"error":[0-9.e-]*,' || fail "no error of a run with a reference: $(cat out)"
+status 0 work-precision kepler perturbation=.01 scheme=logh2 until=.1 dt=.5 -o none.png --json
+grep -q '"error":0\.0[0-9]*,' out || fail "no error of a step that the reference follows: $(cat out)"
+# without names also RK4 that holds H, where H is constant
+status 0 work-precision kepler until=1 dt=.1,.05 -o none.png
+[ "$(grep -cE '^kepler,(projected|relaxed)\(rk4; H\),4,.*,ok,' none.csv)" = 4 ] || fail "RK4 that holds H: $(cat none.csv)"
+status 0 work-precision duffing until=1 dt=.1,.05 -o none.png
+grep -q 'rk4; H' none.csv && fail "a driven H is held: $(cat none.csv)"
 for what in '' scenes schemes figures disc 'schemes --long' 'disc --json'; do
     # shellcheck disable=SC2086
     status 0 list $what

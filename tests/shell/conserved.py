@@ -161,6 +161,9 @@ for scheme, verdicts in (("gauss4", ["oscillates", "conserved", "drifts", "oscil
 # a loss that has ended is no oscillation; what could not be followed to the end says so
 lost = json.loads(run("certify", "implicit-euler", "--on", "system", "H=p^2/2+q^2/2", "q=1", "p=0", "dt=.1", "--json").stdout)["invariants"]
 check([i["verdict"] for i in lost] == ["drifts"] and lost[0]["defect"] > .99, f"implicit-euler loses H: {lost}")
+for word in "explicit-euler", "composition(explicit-euler; 1/3, 1/3, 1/3)":  # a loss that slows down, and does not end
+    lost = json.loads(run("certify", word, "--on", "kepler", "--json").stdout)["invariants"]
+    check([i["verdict"] for i in lost[:2]] == ["drifts"] * 2 and lost[0]["defect"] > .9, f"{word} loses H and L: {lost}")
 ended = json.loads(run("certify", "implicit-euler", "--on", "kepler", "--json").stdout)["invariants"]
 check([(i["verdict"], i.get("reason")) for i in ended] == [("not measured", "no-convergence")] * 4, f"implicit-euler on kepler: {ended}")
 
@@ -176,7 +179,7 @@ got = run("run", "kepler", "scheme=relaxed(implicit-euler; H)", "dt=1e-3")  # ga
 check(got.returncode == 2 and "take a base of order 2 or more" in got.stdout, f"relaxed with order 1: {got.stdout}")
 
 for word, said in (("projected(rk4; L, angular_momentum)", "angular_momentum is L"),
-                   ("projected(rk4; X)", "an invariant X (there are H, angular_momentum, and those that list --invariants finds: I1, I2")):
+                   ("projected(rk4; H, X)", "finds: I1, I2, ...), in column 19;")):
     got = run("run", "kepler", "scheme=" + word, "steps=2")
     check(got.returncode == 1 and said in got.stderr, f"{word}: {got.stderr}")
 check("holds between events" in run("list", "bouncing-ball", "--invariants").stdout, "a bounce changes H")
@@ -274,7 +277,7 @@ for scene, word, sentence in (
         ("duffing", "verlet", "needs a Hamiltonian on which no force acts; here the line force: adds one"),
         ("kepler", "relaxed(rk4; constraints)", "column 14: constraints are held alone"),
         ("kepler", "projected(rk4; Lx)", "needs an invariant Lx (there are H, angular_momentum, and those that list --invariants finds"),
-        ("kepler", "projected(rk4; r)", "needs a constant r"),
+        ("kepler", "projected(rk4; r)", "needs a constant r (its rate is 0 at the start alone), in column 16;"),
         ("kepler", "projected(rk4; constraints)", "needs constraints"),
         ("driven-pendulum", "projected(rk4; H)", "needs a constant H (its rate"),
         ("cartesian-pendulum", "projected(rk4; H)", "projected(...; constraints)")):

@@ -135,6 +135,13 @@ for size in 80x24 160x45; do
     keys Enter
     keys C-u 'composition(vrlet; 1)'
     wait_for 'vrlet'
+    # what the scheme lacks at once, without what is on the screen
+    keys C-u 'strang(A, B)'
+    wait_for '^ it needs a part A \(column 8\)'
+    screen | grep -q 'geomint list' && fail 'a command that cannot be given here'
+    keys C-u 'projected(rk4; H, no)'
+    wait_for '^ it needs an invariant no'
+    wait_for '^ +\^ *$'
     keys Escape
     wait_for 'SCHEMES'
     keys f

@@ -324,6 +324,7 @@ grep -q 'the step after t = 1.0[0-9]* was not found: the monitor, the density of
     fail "no word of the monitor: $(cat out)"
 
 refused 1 'there is no scheme "verlett"; did you mean verlet$' run kepler scheme=verlett
+refused 1 'there is no scheme "z*"; see geomint list' run kepler "scheme=$(printf 'z%.0s' $(seq 200))"
 # a lane freezes with what was not finite, also where a step bends there and the slope does not lead, of any member
 bends() { # SCHEME MEMBERS
     printf 'coordinates: q\nH: p_q^2/2 + sqrt(1 - q)\nstart: q = 0, p_q = 1\n' >bends.system

@@ -107,8 +107,9 @@ void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_s
 const struct gm_scheme gm_chooser_user = {
     .name = "own",
     .title = "your own scheme",
-    .formula = "composition(verlet; 1/2, 1/2), adjoint(rk4)\nrunge-kutta(a; b), partitioned(a; b; ah; bh)\n"
-               "splitting(drifts; kicks), or a file: ./my.scheme",
+    .formula = "composition(rk4; 1/2, 1/2)\nstrang(kinetic, potential)\nprojected(rk4; H)\nrelaxed(rk4; H)\n"
+               "adjoint(rk4)\nrunge-kutta(a; b)\npartitioned(a; b; ah; bh)\nsplitting(drifts; kicks)\n"
+               "or a file: ./my.scheme",
 };
 
 size_t gm_chooser_find(const struct gm_face *face, const struct gm_shot *shot,

@@ -214,11 +214,27 @@ static bool is_entrant(const struct gm_grid *grid, const struct gm_scheme *schem
            !(same && is_entrant(grid, same, lane));
 }
 
+/* Adds an explicit method that holds H, in both ways, where H is constant: such a step costs little more than its base's. */
+static const char *const held_words[] = {"projected(rk4; H)", "relaxed(rk4; H)"};
+
+static void add_held(struct gm_grid *grid, const struct gm_problem *problem)
+{
+    char message[GM_MESSAGE];
+    int status;
+    for (size_t i = 0; i < GM_COUNT(held_words); i++) {
+        const struct gm_scheme *scheme = gm_scheme_sought(held_words[i], &status, message);
+        if (scheme && gm_scheme_fits(scheme, problem)) {
+            add_scheme(grid, scheme);
+        }
+    }
+}
+
 /* Chooses the given schemes, or all that fit `lane`'s problem and are not the reference. */
 static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, bool named)
 {
     const struct gm_request *request = &grid->request;
-    grid->lines = gm_arena_take(grid->arena, gm_scheme_count() + request->count, sizeof *grid->lines);
+    grid->lines = gm_arena_take(grid->arena, gm_scheme_count() + GM_COUNT(held_words) + request->count,
+                                sizeof *grid->lines);
     for (size_t i = 0; named && i < request->count; i++) {
         add_scheme(grid, request->lanes[i].scheme);
     }
@@ -226,6 +242,9 @@ static void choose_schemes(struct gm_grid *grid, const struct gm_lane *lane, boo
         if (is_entrant(grid, gm_scheme_at(i), lane)) {
             add_scheme(grid, gm_scheme_at(i));
         }
+    }
+    if (!named && !(request->scene->work && request->scene->work->schemes)) {
+        add_held(grid, &lane->problem);
     }
     const size_t given = grid->count;
     if (grid->best) {
@@ -482,27 +501,28 @@ static double error_of(const struct gm_grid *grid, const struct gm_lane *lane, c
     return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
 }
 
-/* The same for an adaptive scheme that ends after `until`: the solution is advanced to its end. */
+/* The same for an adaptive scheme that ends after `until`: the solution is advanced to its end. NaN if a step went so far
+   that there is no reference. */
 static double error_behind(const struct gm_grid *grid, const struct gm_lane *lane)
 {
     const struct gm_problem *problem = &lane->problem;
     const double until = gm_grid_timing(grid)->until, gap = lane->run->t - until;
+    const double most = 1e5, steps = ceil(gap / grid->reference_step);
     double *state = malloc(problem->n * problem->m * sizeof *state), error = NAN;
     if (state && problem->exact) {
         problem->exact->solution(problem, lane->run->t, lane->start, state, problem->m);
         error = error_of(grid, lane, state);
-    } else if (state && gap > 0) {
-        const int64_t steps = (int64_t)fmin(ceil(gap / grid->reference_step), 1e5);
+    } else if (state && gap > 0 && steps <= most) {
         const struct gm_settings settings = {.compensated = 1};
         struct gm_run *run =
-            gm_run_open(problem, grid->trusted, &settings, until, gap / (double)steps, grid->solution);
-        if (run && gm_run_advance(run, steps) == GM_OK) {
+            gm_run_open(problem, grid->trusted, &settings, until, gap / steps, grid->solution);
+        if (run && gm_run_advance(run, (int64_t)steps) == GM_OK) {
             error = error_of(grid, lane, gm_run_state(run));
         }
         if (run) {
             gm_run_close(run);
         }
-    } else if (state) {
+    } else if (state && !(gap > 0)) {
         error = error_of(grid, lane, grid->solution);
     }
     free(state);

@@ -399,7 +399,11 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
     const char *const titles[] = {"error against run time", "error against evaluations",
                                   gm_picture_text(picture, "error against %s", finer)};
     const char *const labels[] = {"CPU time, s", "evaluations of f or force", finer};
-    double *points = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *points);
+    size_t most = 1; /* points of a line: tolerances may be more than steps */
+    for (size_t i = 0; i < grid->begun; i++) {
+        most = grid->lines[i].count > most ? grid->lines[i].count : most;
+    }
+    double *points = gm_picture_memory(picture, 2 * most * sizeof *points);
     const struct gm_axis x = {.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0},
                          y = {.label = "", .scale = GM_LOG, .low = 1, .high = 0};
     struct gm_panel *panel = gm_chart_panel(picture, GM_PLACE_GRAPH, titles[cost], &x, &y);
@@ -424,7 +428,7 @@ static void draw_cost(const struct gm_grid *grid, struct gm_picture *picture, en
         if (i >= chosen_count && holds(chosen, chosen_count, line)) {
             continue;
         }
-        double *own = gm_picture_memory(picture, 2 * grid->steps.count * grid->values.count * sizeof *own);
+        double *own = gm_picture_memory(picture, 2 * line->count * sizeof *own);
         const struct drawn drawn = {own, points_of(line, cost, own)};
         if (i < chosen_count) {
             lines[i] = drawn;

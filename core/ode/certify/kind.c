@@ -345,12 +345,14 @@ static double largest(const struct quarter *quarter)
 }
 
 /* An error that grows in proportion to the time is four times as large in the last quarter as in the first, one that
-   oscillates is not twice as large. A loss that ends has changed by a part of the invariant, and rests. */
+   oscillates is not twice as large, and comes back to values that it had before. A loss that ends has changed by a part of
+   the invariant, and rests. */
 static bool drifts(const struct quarter *first, const struct quarter *last, double low, double high,
                    double scale)
 {
     const bool rests = last->high - last->low < 0.05 * (high - low) && high - low > 0.05 * scale;
-    return rests || largest(last) > 2 * largest(first);
+    const bool left = last->low > first->high || last->high < first->low;
+    return rests || left || largest(last) > 2 * largest(first);
 }
 
 /* The change of an invariant by one rounding of its components, relative to its value at the start: the larger one of

@@ -885,6 +885,7 @@ static struct own *make_holding(const struct making *making)
                  GM_MOST_CONSERVED);
         }
         const char *name = held_name(making, holding, piece);
+        holding->columns[holding->count] = making->source->title ? 0 : piece.begin + 1; /* 0: in a file */
         holding->names[holding->count++] = name;
     }
     if (holding->count == 0) {

@@ -6,6 +6,8 @@
    section 8.6.3. */
 #include "core/ode/families/invariants/held.h"
 
+#include <stdio.h>
+
 #include "core/ode/families/family.h"
 #include "core/ode/variational/action.h"
 #include "core/schemes.h"
@@ -209,6 +211,20 @@ enum gm_status gm_held_start(const struct gm_task *task)
     return GM_OK;
 }
 
+size_t gm_held_column(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_holding *holding = scheme->coefficients;
+    char lacks[GM_FAULT_SENTENCE];
+    for (size_t i = 0; i < holding->count; i++) {
+        struct gm_conserved conserved; /* of the names so far, for none may be another one's invariant */
+        if (!gm_conserved_open(&conserved, problem, holding->names, i + 1, lacks)) {
+            return holding->columns[i];
+        }
+        gm_conserved_close(&conserved);
+    }
+    return 0;
+}
+
 const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     static _Thread_local char lacks[GM_FAULT_SENTENCE];
@@ -226,6 +242,11 @@ const char *gm_held_lacks(const struct gm_scheme *scheme, const struct gm_proble
         return "a motion without constraints, or projected(...; constraints)";
     }
     if (!gm_conserved_open(&conserved, problem, holding->names, holding->count, lacks)) {
+        const size_t column = lacks[0] ? gm_held_column(scheme, problem) : 0;
+        if (column > 0) {
+            const size_t length = strlen(lacks);
+            snprintf(lacks + length, sizeof lacks - length, ", in column %zu", column);
+        }
         return lacks[0] ? lacks : "more memory";
     }
     const bool linear = conserved.linear && scheme->family->adaptive;

@@ -14,11 +14,14 @@ struct gm_holding {
     bool constraints; /* they are held instead */
     size_t count;
     const char *names[GM_MOST_CONSERVED];
+    size_t columns[GM_MOST_CONSERVED]; /* of the names in a typed word, from 1; 0: a file has them */
 };
 
 /* Returns what a scheme holds; NULL if it is of no such family. */
 const struct gm_holding *gm_holding_of(const struct gm_scheme *scheme);
 const struct gm_scheme *gm_holding_base(const struct gm_scheme *scheme);
+/* Returns the column of the first name that a problem has no such invariant for, or 0. */
+size_t gm_held_column(const struct gm_scheme *scheme, const struct gm_problem *problem);
 
 /* A member's memory: HELD is 1 once the values, from VALUES on, are noted; CORRECTION is that of the last step. */
 enum { GM_HELD_IS_SET, GM_HELD_CORRECTION, GM_HELD_TIME_CARRY, GM_HELD_VALUES };
@@ -74,6 +77,13 @@ static inline bool gm_held_is_met(double miss, double *before)
     const bool met = miss <= 4 * GM_EPSILON || (miss <= GM_HELD_MET && miss >= *before);
     *before = miss;
     return met;
+}
+
+/* Returns true if the miss after this one will be round-off: by the last factor it falls as far. */
+static inline bool gm_held_is_next_met(double miss, double previous)
+{
+    const double near = 1e-8;
+    return miss <= near && miss * miss <= GM_EPSILON * previous;
 }
 
 #endif

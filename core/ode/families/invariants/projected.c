@@ -19,13 +19,16 @@ static enum gm_status project(struct gm_held *held, const double *values, struct
     double off[GM_MOST_CONSERVED], multipliers[GM_MOST_CONSERVED], before = INFINITY;
     gm_held_turn(held, held->z);
     for (int i = 0; i < GM_HELD_MOST; i++) {
-        const double miss =
-            i == 0 ? gm_held_distance(held, values, off) : gm_held_miss(held, values, held->z, off);
+        const double previous = before, miss = i == 0 ? gm_held_distance(held, values, off)
+                                                      : gm_held_miss(held, values, held->z, off);
         if (gm_held_is_met(miss, &before)) {
             return GM_OK;
         }
         gm_held_solve(held, off, multipliers);
         gm_held_move(held->z, held->slopes, multipliers, held->count, held->n, held->z);
+        if (i > 0 && gm_held_is_next_met(miss, previous)) {
+            return GM_OK;
+        }
     }
     return before <= GM_HELD_MET ? GM_OK : gm_held_fails(held, values, progress);
 }

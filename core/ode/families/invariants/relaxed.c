@@ -15,7 +15,6 @@
 static enum gm_status relax(struct gm_held *held, const double *y, double value, double *gamma,
                             struct gm_progress *progress)
 {
-    static const double NEAR = 1e-8;
     double off = 0, slope = 0, change = 0, before = INFINITY;
     *gamma = 1;
     for (int i = 0; i < GM_HELD_MOST; i++) {
@@ -46,7 +45,7 @@ static enum gm_status relax(struct gm_held *held, const double *y, double value,
             break;
         }
         *gamma += change;
-        if (i > 0 && miss <= NEAR && miss * miss <= GM_EPSILON * previous) {
+        if (i > 0 && gm_held_is_next_met(miss, previous)) {
             for (size_t c = 0; c < held->n; c++) {
                 held->z[c] = y[c] + *gamma * held->move[c];
             }

@@ -19,6 +19,7 @@
 #include "core/ode/families/base_scheme.h"
 #include "core/ode/families/composition.h"
 #include "core/ode/families/family.h"
+#include "core/ode/families/invariants/held.h"
 #include "core/ode/families/splitting/jacobi.h"
 #include "core/ode/families/splitting/kepler.h"
 #include "core/ode/families/splitting/linear_flow.h"
@@ -767,7 +768,7 @@ size_t gm_parts_column(const struct gm_scheme *scheme, const struct gm_problem *
     for (size_t i = 0; row && i < row->parts && column == 0; i++) {
         column = how_of(problem, &row->list[i]) == HOWS ? row->list[i].column : 0;
     }
-    return column;
+    return column == 0 && gm_holding_of(named) ? gm_held_column(named, problem) : column;
 }
 
 #include "core/corrected_schemes.def"
