@@ -234,7 +234,8 @@ static bool refine(struct search *search)
         for (size_t c = 0; c < n && there; c++) {
             apart = fmax(apart, fabs(search->end[c] - search->trial[c]));
         }
-        done = apart <= part_of(search, settled) || (before < part_of(search, resolved) && apart > before / 8);
+        done =
+            apart <= part_of(search, settled) || (before < part_of(search, resolved) && apart > before / 8);
     }
     const bool halved = orbit->steps > 2 * first;
     orbit->steps /= done ? 2 : 1;
