@@ -241,11 +241,11 @@ static void print_json(const struct work *work)
     gm_row_close(&row, "\n");
 }
 
-/* A number of at most this many digits, without those below its error. */
+/* A number of at most this many digits, without those below its error, but of three. */
 static const char *known_digits(const struct work *work, double value, double error, int most)
 {
     const double digits = fmin(most, floor(gm_log(fabs(value) / error) / gm_log(10)) + 1);
-    return gm_arena_print(work->options->arena, "%.*g", (int)fmax(1, digits), value);
+    return gm_arena_print(work->options->arena, "%.*g", (int)fmax(3, digits), value);
 }
 
 /* The multipliers as a text: "285.4037, 1, 1, 0.0035", or pairs "0.5 ± 0.8i". */
