@@ -994,6 +994,7 @@ struct found {
     size_t symmetries_unwritten;
     size_t symmetry_count;
     const char **names, **formulas; /* of the invariants, and then the formulas of the symmetries */
+    const char **maps; /* of the symmetries: the names of their momentum maps, or formulas; NULL: none */
 };
 
 /* "x = -y, y = x": the components that are not 0 */
@@ -1016,12 +1017,17 @@ static void write_found(struct report *report, struct found *found)
     found->names = gm_arena_take(report->arena, count + 1, sizeof *found->names);
     found->formulas =
         gm_arena_take(report->arena, count + found->symmetry_count + 1, sizeof *found->formulas);
+    found->maps = gm_arena_take(report->arena, found->symmetry_count + 1, sizeof *found->maps);
     for (size_t i = 0; i < count; i++) {
         found->names[i] = found_name(report, &found->invariants, i);
         found->formulas[i] = written_out(report, found->invariants.list[i].node);
     }
     for (size_t i = 0; i < found->symmetry_count; i++) {
-        found->formulas[count + i] = symmetry_formula(report, &found->symmetries[i]);
+        const struct gm_symmetry *symmetry = &found->symmetries[i];
+        found->formulas[count + i] = symmetry_formula(report, symmetry);
+        found->maps[i] = symmetry->momentum_map == GM_NO_NODE ? NULL
+                         : symmetry->paired < count           ? found->names[symmetry->paired]
+                                                              : written_out(report, symmetry->momentum_map);
     }
 }
 
@@ -1065,8 +1071,9 @@ static void print_found(struct report *report, const struct found *found)
     printf("affine symmetries, fields that send motions into motions: %zu\n", found->symmetry_count);
     for (size_t i = 0; i < found->symmetry_count; i++) {
         const char *line =
-            gm_arena_print(report->arena, "%s (scaling %g)", found->formulas[invariants->count + i],
-                           found->symmetries[i].scaling);
+            gm_arena_print(report->arena, "%s (scaling %g%s%s)", found->formulas[invariants->count + i],
+                           found->symmetries[i].scaling, found->maps[i] ? ", momentum map " : "",
+                           found->maps[i] ? found->maps[i] : "");
         gm_print_wrapped(line, printf("  "), 4);
     }
     if (found->symmetries_unwritten > 0) {
@@ -1094,8 +1101,8 @@ static void put_found(struct report *report, const struct found *found)
     list = gm_row_open(&row, "symmetries_found", ']');
     for (size_t i = 0; i < found->symmetry_count; i++) {
         struct gm_row one = gm_row_open(&list, NULL, '}');
-        gm_row_put(&one, "formula %s, scaling %.17g", found->formulas[invariants->count + i],
-                   found->symmetries[i].scaling);
+        gm_row_put(&one, "formula %s, scaling %.17g, momentum_map %s", found->formulas[invariants->count + i],
+                   found->symmetries[i].scaling, found->maps[i]);
     }
     gm_row_put(&row, "symmetries_unwritten %i", (int)found->symmetries_unwritten);
     gm_row_close(&row, "\n");
@@ -1110,8 +1117,8 @@ static int list_invariants(const struct gm_options *options, struct report *repo
                       "the invariants of this system are not searched: %s", found.invariants.lacks);
     found.symmetry_count = found.invariants.lacks
                                ? 0
-                               : gm_symmetries_find(&report->system, options->arena, &found.symmetries,
-                                                    &found.symmetries_unwritten);
+                               : gm_symmetries_find(&report->system, options->arena, &found.invariants,
+                                                    &found.symmetries, &found.symmetries_unwritten);
     write_found(report, &found);
     gm_arena_need(options->arena, !gm_memory_was_short());
     (options->json ? put_found : print_found)(report, &found);

@@ -715,8 +715,66 @@ static gm_node_id *write_field(struct gm_user_system *system, struct gm_arena *a
     return field;
 }
 
+/* G = b' y + y' B y / 2 with J (b + B y) = a + A y, if B is symmetric and G constant in the motion; else GM_NO_NODE. */
+static gm_node_id write_momentum_map(struct gm_user_system *system, struct gm_arena *arena,
+                                     const double *entries)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n, half = n / 2;
+    gm_node_id map = gm_formula_constant(graph, 0);
+    double *matrix = gm_arena_take(arena, n * n, sizeof *matrix);
+    for (size_t i = 0; i < n && system->kind == GM_CANONICAL; i++) {
+        const size_t conjugate = (i + half) % n;
+        const double sign = i < half ? -1 : 1;
+        const gm_node_id y = gm_formula_variable(graph, i),
+                         factor = gm_formula_constant(graph, sign * entries[conjugate]);
+        map = gm_sum(graph, map, gm_product(graph, factor, y));
+        for (size_t j = 0; j < n; j++) {
+            matrix[i * n + j] = sign * entries[n + conjugate * n + j];
+        }
+        for (size_t j = 0; j <= i; j++) {
+            if (matrix[i * n + j] != (j < i ? matrix[j * n + i] : matrix[i * n + i])) {
+                return GM_NO_NODE;
+            }
+            const gm_node_id part = gm_formula_constant(graph, matrix[i * n + j] / (i == j ? 2 : 1));
+            map = gm_sum(graph, map,
+                         gm_product(graph, part, gm_product(graph, gm_formula_variable(graph, j), y)));
+        }
+    }
+    return system->kind == GM_CANONICAL &&
+                   gm_equations_vanishes(system, gm_derivative_along(graph, map, system->rates, n)) ==
+                       GM_ZERO_PROVED
+               ? map
+               : GM_NO_NODE;
+}
+
+/* The number of the invariant whose gradient is parallel to that of a momentum map; their count: of none. */
+static size_t paired_with(struct gm_user_system *system, struct gm_arena *arena, gm_node_id map,
+                          const struct gm_found_invariants *invariants)
+{
+    struct gm_formula *graph = &system->graph;
+    const size_t n = system->n;
+    gm_node_id *slopes = gm_arena_take(arena, 2 * n, sizeof *slopes), *others = slopes + n;
+    bool parallel = false;
+    size_t number = 0;
+    for (; number < invariants->count && map != GM_NO_NODE && !parallel; number += !parallel) {
+        gm_arena_need(arena, gm_gradient(graph, map, NULL, n, slopes) &&
+                                 gm_gradient(graph, invariants->list[number].node, NULL, n, others));
+        parallel = true;
+        for (size_t k = 0; k < n * n && parallel; k++) {
+            const size_t i = k / n, j = k % n;
+            parallel = j >= i ||
+                       gm_equations_vanishes(
+                           system, gm_difference(graph, gm_product(graph, slopes[i], others[j]),
+                                                 gm_product(graph, slopes[j], others[i]))) == GM_ZERO_PROVED;
+        }
+    }
+    return parallel ? number : invariants->count;
+}
+
 size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
-                          struct gm_symmetry **symmetries, size_t *unwritten)
+                          const struct gm_found_invariants *invariants, struct gm_symmetry **symmetries,
+                          size_t *unwritten)
 {
     *unwritten = 0;
     const size_t n = system->n, unknowns = n + n * n + 1, points = 6 * n + 20, nodes = 2 * n + n * n;
@@ -755,8 +813,10 @@ size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
         if (!gm_residues_whole(basis[i].entries, unknowns, whole)) {
             ++*unwritten;
         } else {
+            const gm_node_id map = write_momentum_map(system, arena, whole);
             (*symmetries)[found++] =
-                (struct gm_symmetry){write_field(system, arena, whole), whole[unknowns - 1]};
+                (struct gm_symmetry){write_field(system, arena, whole), whole[unknowns - 1], map,
+                                     paired_with(system, arena, map, invariants)};
         }
     }
     return found;

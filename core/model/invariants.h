@@ -41,6 +41,9 @@ enum { GM_MOST_WITH_SYMMETRIES = 20 /* components */ };
 struct gm_symmetry {
     gm_node_id *field; /* [n], with whole coefficients, in the system's graph */
     double scaling;    /* c */
+    gm_node_id
+        momentum_map; /* G, constant in the motion of a canonical system, with the field J grad G; or GM_NO_NODE */
+    size_t paired; /* the number of the invariant that G is a function of; or their count */
 };
 
 /* Finds a basis of the affine symmetries for the values of parameters, of a system of which gm_invariants_find lacks
@@ -48,6 +51,7 @@ struct gm_symmetry {
    components.
    Inside a body of the arena, which is left when out of memory. The graph grows. */
 size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,
-                          struct gm_symmetry **symmetries, size_t *unwritten);
+                          const struct gm_found_invariants *invariants, struct gm_symmetry **symmetries,
+                          size_t *unwritten);
 
 #endif

@@ -121,6 +121,24 @@ def check_symmetry(symmetry, names, rates, points):
     return worst < 1e-6
 
 
+def is_generated_by(symmetry, momentum_map, names, points):
+    """The field is parallel to J grad G, G a formula."""
+    parts = dict(part.split(" = ", 1) for part in re.split(r", (?=\w+ = )", symmetry["formula"]))
+    half = len(names) // 2
+    for y in points:
+        unit = [[float(k == i) for k in range(2 * half)] for i in range(2 * half)]
+        gradient = [slope(lambda x: complex(value(momentum_map, names, x, {})), y, u) for u in unit]
+        motion = gradient[half:] + [-g for g in gradient[:half]]
+        field = [complex(value(parts.get(n, "0"), names, y, {})).real for n in names]
+        crossed = [abs(a * d - b * c) for a, b in zip(motion, field) for c, d in zip(motion, field)]
+        if max(map(abs, motion)) < 1e-9 or max(crossed) > 1e-12:
+            return False
+    return True
+
+
+# the symmetries with a momentum map
+MAPS = {"oscillators 1:2": 2, "kepler": 1, "Gauss's hill": 1, "toda": 2, "perturbed Kepler": 1, "rigid-body": 0, "heavy-top": 0}
+
 for name, system, parameters, degree, degrees, independent, symmetries in TABLE:
     names, rates = names_and_rates(system, parameters)
     out = run(*words_of(name, system, parameters, names), "--invariants", "--degree", str(degree), "--json")
@@ -151,6 +169,21 @@ for name, system, parameters, degree, degrees, independent, symmetries in TABLE:
     for symmetry in found["symmetries_found"]:
         if not check_symmetry(symmetry, names, rates, points):
             fail(f"{name}: {symmetry['formula']} is no symmetry")
+    formulas = {i["name"]: i["formula"] for i in invariants}
+    maps = [s for s in found["symmetries_found"] if s["momentum_map"]]
+    if len(maps) != MAPS.get(name, len(maps)):
+        fail(f"{name}: {len(maps)} momentum maps, not {MAPS[name]}")
+    for symmetry in maps:
+        formula = formulas.get(symmetry["momentum_map"], symmetry["momentum_map"])
+        if not is_constant(formula) or not is_generated_by(symmetry, formula, names, points):
+            fail(f"{name}: {symmetry['momentum_map']} is not the momentum map of {symmetry['formula']}")
+        if is_generated_by(symmetry, f"{formula} + 1e-6*{names[0]}*{names[-1]}", names, points):
+            fail(f"{name}: a wrong momentum map passes the check")
+
+# under a constant force the motion is the same elsewhere, but no momentum is conserved along the force
+falling = run("system", "H=(p1^2 + p2^2)/2 + q1", "q1=1", "q2=0", "p1=0", "p2=1", "--invariants").stdout
+if "q1 = 1 (scaling 0)" not in falling or "q2 = 1 (scaling 0, momentum map I1)" not in falling:
+    fail(f"momentum maps of a fall: {falling}")
 
 named = [i["name"] for i in json.loads(run("kepler", "--invariants", "--json").stdout)["invariants_found"]]
 if named != ["H", "angular_momentum", "I1", "I2"]:
