@@ -3,7 +3,9 @@
        sign(x) = s    abs(x) = s x    heaviside(x) = 1 - [s < 0]    [a < b] = [s < 0], g = a - b
        min(a, b) = [a < b] a + (1 - [a < b]) b
    and one at the whole numbers of g, whose mode k is the one below, with
-       floor(x) = k    ceil(x) = -k, g = -x    mod(a, b) = a - b k, g = a/b */
+       floor(x) = k    ceil(x) = -k, g = -x    mod(a, b) = a - b k, g = a/b
+
+   atan2(y, x) is smooth for the schemes, but its value jumps at g = y. */
 #include "core/model/breaks.h"
 
 #include <math.h>
@@ -215,10 +217,11 @@ enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id 
     bool *varying = gm_arena_take(system->arena, all, sizeof *varying);
     enum gm_identity worst = GM_ZERO_PROVED;
     for (size_t k = 0; k < part_count && found < MOST; k++) {
-        if (gm_operation_jumps(graph->nodes[parts[k]].operation)) {
+        const enum gm_operation operation = graph->nodes[parts[k]].operation;
+        if (gm_operation_jumps(operation) || operation == GM_OPERATION_ATAN2) { /* by 2 pi where x < 0 */
             switches = switches ? switches : gm_breaks_switches(system->arena, system);
             jumps[found] = parts[k];
-            found += switches[parts[k]];
+            found += switches[parts[k]] || operation == GM_OPERATION_ATAN2;
         }
     }
     for (size_t i = 0; i < system->initial; i++) {

@@ -597,12 +597,15 @@ static bool holds_time(struct gm_user_system *system, const struct gm_system_ite
 static void check_item(struct gm_user_system *system, struct gm_system_item *item, bool forced)
 {
     struct broken broken = {NULL, GM_NO_NODE};
+    bool jumps;
     switch (item->word) {
     case GM_WORD_INVARIANT:
         item->check = is_conserved(system, item->nodes[0]);
+        jumps =
+            item->check == GM_NOT_ZERO && passes(system, item->nodes[0], motion_of(system)) == GM_NOT_ZERO;
         gm_system_refuse_if(system, item->check == GM_NOT_ZERO && !forced, item->place,
-                            "%.60s is not an invariant; observe: takes nearly conserved quantities",
-                            item->name);
+                            "%.60s is not an invariant%s; observe: takes nearly conserved quantities",
+                            item->name, jumps ? ": it jumps in the motion" : "");
         break;
     case GM_WORD_SURFACE:
         check_surface(system, item);
