@@ -131,6 +131,22 @@ grep -q '^  multipliers  *4.712947273, 1, 1.19e-10$' out || fail "digits of a sm
 status 0 orbit duffing a=.3 period=2*pi/1.2 --json
 holds 'near(abs(complex(*d["multipliers"][0]) * complex(*d["multipliers"][1])), math.exp(-.3 * 2 * math.pi / 1.2), 1e-10) and d["residual"] < 1e-10'
 
+# a start on a switch: the motion through it has the multiplier 1, as from anywhere else on the orbit
+for start in 'x=3.1 y=0 dt=0.1 fix=y' 'x=3.1 y=0' 'x=3.1 y=0.1'; do
+    status 0 orbit system rate='x = y, y = -x - 0.2*y + 0.5*sign(y)' $start --json
+    holds 'near(d["multipliers"][0][0], 1, 1e-9) and near(d["multipliers"][1][0], .5318020829, 1e-9) and d["by_structure"] == 1'
+done
+# the kind of a fixed point whose multipliers are near the unit circle, by R(z) of the scheme
+status 0 orbit system H='p^2/2 + q^2/2' q=0 p=0 scheme=rk4 dt=0.2 steps=1 --json
+holds 'd["stability"] == "stable" and near(abs(complex(*d["multipliers"][0])), abs(sum((.2j)**k / math.factorial(k) for k in range(5))), 1e-14)'
+status 0 orbit system H='p^2/2 - cos(q)' q=0 p=0 scheme=explicit-euler dt=0.001 steps=1 --json
+holds 'd["stability"] == "unstable" and near(abs(complex(*d["multipliers"][0])), abs(1 + .001j), 1e-14)'
+# a swing that loses, or gains, little: det M = exp(+-1e-6 pi)
+for sign in - +; do
+    status 0 orbit system rate="x = y, y = -(0.6+0.3*cos(2*t))*x $sign 1e-6*y" x=0 y=0 period=pi --json
+    holds "d['stability'] == ('stable' if '$sign' == '-' else 'unstable') and near(abs(complex(*d['multipliers'][0]))**2, math.exp(${sign}1e-6 * math.pi), 1e-10)"
+done
+
 # ---- of a map ----
 
 # the orbit of Verlet on the pendulum that closes after 16 steps, and its trace by the map written out

@@ -305,6 +305,18 @@ static void find_multipliers(struct search *search)
     }
 }
 
+/* Follows the frame a step later. The multipliers are the same there, and a start on a switch or an event would pass it
+   neither at the start nor at the end. */
+static void follow_later(struct search *search)
+{
+    const struct gm_periodic *orbit = search->orbit;
+    struct gm_run *run = open_run(orbit, search->arena, orbit->start, orbit->period / (double)orbit->steps);
+    if (gm_run_advance(run, 1) == GM_OK) {
+        memcpy(search->trial, gm_run_state(run), orbit->problem->n * sizeof(double));
+        follow(search, search->trial, orbit->period, true);
+    }
+}
+
 static void find(struct gm_arena *arena, void *data)
 {
     struct gm_periodic *orbit = data;
@@ -352,6 +364,9 @@ static void find(struct gm_arena *arena, void *data)
                                                                             : GM_PERIODIC_NO_CONVERGENCE;
     if (orbit->free && orbit->status == GM_PERIODIC_FOUND) {
         shorten(&search);
+    }
+    if (orbit->problem->events && orbit->steps > 1 && orbit->status == GM_PERIODIC_FOUND) {
+        follow_later(&search);
     }
     find_multipliers(&search);
 }
@@ -504,7 +519,7 @@ double gm_multiplier_error(const struct gm_periodic *orbit, size_t i)
 
 const char *gm_periodic_kind(const struct gm_periodic *orbit)
 {
-    const double close = 1e-5;
+    const double close = 10 * orbit->error;
     const double *re = orbit->multipliers, *im = re + orbit->count;
     double volume = 0, farthest = 0, real = 0;
     const size_t ones = count_ones(orbit);
