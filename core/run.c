@@ -78,7 +78,7 @@ const double *gm_run_events(const struct gm_run *run)
 
 bool gm_scheme_locates_breaks(const struct gm_scheme *scheme)
 {
-    return gm_scheme_has_one_step(scheme) && !(scheme->order == 1 && (scheme->claims & GM_SYMPLECTIC));
+    return gm_scheme_has_one_step(scheme) && scheme->order != 1;
 }
 
 bool gm_run_locates(const struct gm_run *run)

@@ -56,8 +56,9 @@ const double *gm_run_memory(const struct gm_run *run);
 /* The memory of events (core/events.h); NULL: the problem has none. Valid until the next step. */
 const double *gm_run_events(const struct gm_run *run);
 
-/* Returns true if breaks are located for a scheme: its steps can be made in parts, which keep an order above 1. A symplectic
-   scheme of order 1 steps across: that keeps its order, and parts would change its energy in one direction at each break. */
+/* Returns true if breaks are located for a scheme: its steps can be made in parts, which keep an order above 1. A scheme of
+   order 1 steps across: it keeps that order, maps that are written as its steps have no parts, and those of a symplectic
+   one would change its energy in one direction at each break. */
 bool gm_scheme_locates_breaks(const struct gm_scheme *scheme);
 /* Returns true if the run locates breaks: it has one member, and steps that can be made in parts. */
 bool gm_run_locates(const struct gm_run *run);

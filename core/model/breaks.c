@@ -203,23 +203,25 @@ static bool rests(const struct passage *passage, gm_node_id jump)
     return rest;
 }
 
-enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id *nodes, size_t count,
-                                const gm_node_id *direction, size_t variables, gm_node_id *at)
+enum gm_identity gm_breaks_pass(struct gm_arena *arena, struct gm_user_system *system,
+                                const gm_node_id *nodes, size_t count, const gm_node_id *direction,
+                                size_t variables, gm_node_id *at)
 {
     enum { MOST = 256 }; /* switches that are tested */
     struct gm_formula *graph = &system->graph;
-    const size_t mark = gm_arena_mark(system->arena), all = system->variable_count;
+    const size_t mark = gm_arena_mark(arena), all = system->variable_count;
     size_t part_count = 0, found = 0;
     const gm_node_id *parts =
-        gm_arena_keep(system->arena, gm_formula_parts_of(graph, nodes, count, &part_count), free);
-    gm_node_id jumps[MOST], *roots = gm_arena_take(system->arena, count + variables + all + 1, sizeof *roots);
+        gm_arena_keep(arena, gm_formula_parts_of(graph, nodes, count, &part_count), free);
+    gm_arena_need(arena, parts);
+    gm_node_id jumps[MOST], *roots = gm_arena_take(arena, count + variables + all + 1, sizeof *roots);
     const bool *switches = NULL;
-    bool *varying = gm_arena_take(system->arena, all, sizeof *varying);
+    bool *varying = gm_arena_take(arena, all, sizeof *varying);
     enum gm_identity worst = GM_ZERO_PROVED;
     for (size_t k = 0; k < part_count && found < MOST; k++) {
         const enum gm_operation operation = graph->nodes[parts[k]].operation;
         if (gm_operation_jumps(operation) || operation == GM_OPERATION_ATAN2) { /* by 2 pi where x < 0 */
-            switches = switches ? switches : gm_breaks_switches(system->arena, system);
+            switches = switches ? switches : gm_breaks_switches(arena, system);
             jumps[found] = parts[k];
             found += switches[parts[k]] || operation == GM_OPERATION_ATAN2;
         }
@@ -233,7 +235,7 @@ enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id 
     }
     for (size_t k = 0; k < found && worst != GM_NOT_ZERO; k++) {
         const struct gm_node node = graph->nodes[jumps[k]];
-        const size_t inner = gm_arena_mark(system->arena), given = count + (direction ? variables : 0);
+        const size_t inner = gm_arena_mark(arena), given = count + (direction ? variables : 0);
         struct passage passage = {.system = system,
                                   .nodes = nodes,
                                   .count = count,
@@ -247,23 +249,24 @@ enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id 
                     : node.operation == GM_OPERATION_BELOW ? gm_difference(graph, node.a, node.b)
                                                            : node.a;
         passage.gradient = roots + given;
-        gm_arena_need(system->arena, gm_gradient(graph, passage.g, varying, all, roots + given));
+        gm_arena_need(arena, gm_gradient(graph, passage.g, varying, all, roots + given));
         roots[given + all] = passage.g;
-        gm_system_need_graph(system);
+        gm_arena_need(arena, !graph->failed);
         passage.parts = gm_arena_keep(
-            system->arena, gm_formula_parts_of(graph, roots, given + all + 1, &passage.part_count), free);
-        passage.point = gm_arena_take(system->arena, 3 * all, sizeof(double));
+            arena, gm_formula_parts_of(graph, roots, given + all + 1, &passage.part_count), free);
+        gm_arena_need(arena, passage.parts);
+        passage.point = gm_arena_take(arena, 3 * all, sizeof(double));
         passage.base = passage.point + all;
         passage.unit = passage.base + all;
         for (int side = 0; side < 2; side++) {
-            passage.sides[side] = gm_arena_take_unset(system->arena, graph->count, sizeof(double));
+            passage.sides[side] = gm_arena_take_unset(arena, graph->count, sizeof(double));
         }
         const enum gm_identity here = rests(&passage, jumps[k]) ? GM_ZERO_PROVED : test_passage(&passage);
         *at = here == GM_NOT_ZERO ? jumps[k] : *at;
         worst = here == GM_NOT_ZERO || here > worst ? here : worst;
-        gm_arena_release(system->arena, inner);
+        gm_arena_release(arena, inner);
     }
-    gm_arena_release(system->arena, mark);
+    gm_arena_release(arena, mark);
     return found == MOST && worst != GM_NOT_ZERO ? GM_UNTESTED : worst;
 }
 

@@ -28,9 +28,10 @@ bool gm_operation_jumps(enum gm_operation operation);
 /* Derivatives that vanish prove nothing across a jump. Tests at random points of each switch if the sum over i of
    [f_i] (grad g . d) is 0 where g passes 0; [f_i] is the jump of nodes[i]. The direction d has `variables` components;
    NULL: node i moves along variable i, for a divergence. Proved if no node jumps. The node of a switch where the sum is
-   not 0 is written to *at. Inside a body of the system's arena. */
-enum gm_identity gm_breaks_pass(struct gm_user_system *system, const gm_node_id *nodes, size_t count,
-                                const gm_node_id *direction, size_t variables, gm_node_id *at);
+   not 0 is written to *at. Inside a body of the arena. */
+enum gm_identity gm_breaks_pass(struct gm_arena *arena, struct gm_user_system *system,
+                                const gm_node_id *nodes, size_t count, const gm_node_id *direction,
+                                size_t variables, gm_node_id *at);
 
 /* Nodes in which switches are frozen, with the switches that were found. */
 struct gm_freezing {

@@ -299,7 +299,7 @@ static enum gm_identity weaker(enum gm_identity a, enum gm_identity b)
 static enum gm_identity passes(struct gm_user_system *system, gm_node_id node, const gm_node_id *direction)
 {
     gm_node_id at = GM_NO_NODE;
-    return gm_breaks_pass(system, &node, 1, direction, system->variable_count, &at);
+    return gm_breaks_pass(system->arena, system, &node, 1, direction, system->variable_count, &at);
 }
 
 /* Tests if a node is constant along the direction: its slope vanishes, and it does not jump. */
@@ -469,7 +469,8 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
     if (system->kind > GM_LAGRANGIAN) {
         return check_commuting(system, item, broken);
     }
-    gm_node_id *direction = direction_of(system, NULL, 0);
+    const gm_node_id *gradient = gm_equations_gradient(system, system->energy, NULL);
+    gm_node_id *direction = direction_of(system, NULL, 0), change = map;
     for (size_t i = 0; i < half; i++) {
         const gm_node_id momentum = gm_formula_variable(graph, half + i);
         map = gm_sum(graph, map, gm_product(graph, momentum, item->nodes[i]));
@@ -491,11 +492,16 @@ static enum gm_identity check_symmetry(struct gm_user_system *system, struct gm_
     if (!keeps_constraints(system, item, broken)) {
         return GM_NOT_ZERO;
     }
-    *broken = (struct broken){canonical ? "H" : "L", along(system, system->energy, direction)};
+    /* of the gradient, whose terms the rates have: other terms would change the text of a compiled system */
+    for (size_t i = 0; i < system->variable_count; i++) {
+        change = gm_sum(graph, change, gm_product(graph, gradient[i], direction[i]));
+    }
+    *broken = (struct broken){canonical ? "H" : "L", change};
     item->nodes = gm_arena_resize(system->arena, item->nodes, half + 1, sizeof *item->nodes);
     item->nodes[half] = map;
     item->count = half + 1;
-    const enum gm_identity found = is_constant(system, system->energy, direction),
+    const enum gm_identity found = weaker(gm_equations_vanishes(system, change),
+                                          passes(system, system->energy, direction)),
                            passing = passes(system, map, motion_of(system));
     gm_system_refuse_if(system, found != GM_NOT_ZERO && passing == GM_NOT_ZERO, item->place,
                         "the momentum map of this symmetry jumps, so the motion does not conserve it");

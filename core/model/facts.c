@@ -568,10 +568,11 @@ static void need_passing(const struct search *search, struct gm_finding *finding
 {
     struct gm_user_system *system = search->system;
     gm_node_id at = GM_NO_NODE;
-    conclude(finding, gm_breaks_pass(system, system->rates, system->n, NULL, system->n, &at));
+    conclude(finding, gm_breaks_pass(system->arena, system, system->rates, system->n, NULL, system->n, &at));
     finding->why = "jumps, and volume changes across the jump";
     if (finding->holds && system->kind != GM_RATES) {
-        conclude(finding, gm_breaks_pass(system, &system->energy, 1, system->rates, system->n, &at));
+        conclude(finding,
+                 gm_breaks_pass(system->arena, system, &system->energy, 1, system->rates, system->n, &at));
         finding->why = "jumps in H, and the equations have no force for that";
     }
     finding->term = at;

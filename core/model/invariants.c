@@ -588,10 +588,11 @@ static void write_all(struct search *search, struct gm_found_invariants *found)
     }
 }
 
-static bool passes(struct gm_user_system *system, const gm_node_id *node)
+static bool passes(const struct search *search, const gm_node_id *node)
 {
+    struct gm_user_system *system = search->system;
     gm_node_id at = GM_NO_NODE;
-    return gm_breaks_pass(system, node, 1, system->rates, system->n, &at) == GM_ZERO_PROVED;
+    return gm_breaks_pass(search->arena, system, node, 1, system->rates, system->n, &at) == GM_ZERO_PROVED;
 }
 
 /* H, and the invariants that were declared, unless they jump along the motion. */
@@ -599,13 +600,13 @@ static void find_named(struct search *search)
 {
     struct gm_user_system *system = search->system;
     search->named = gm_arena_take(search->arena, system->item_count + 1, sizeof *search->named);
-    if (system->kind != GM_RATES && passes(system, &system->energy)) {
+    if (system->kind != GM_RATES && passes(search, &system->energy)) {
         search->named[search->named_count++].node = system->energy;
     }
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
         const gm_node_id node = gm_system_conserved(system, item);
-        if (node != GM_NO_NODE && passes(system, &node)) {
+        if (node != GM_NO_NODE && passes(search, &node)) {
             search->named[search->named_count++] = (struct named){.item = item, .node = node};
         }
     }

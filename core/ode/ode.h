@@ -199,6 +199,7 @@ struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
     const char *components;
     const bool *angles; /* [n] components that count modulo 2 pi; NULL: none */
+    bool energy_jumps;  /* H does where a switch turns, and the rates have no force for that */
     bool stiff;         /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic;     /* f is a polynomial of degree 2 */
     bool linear;        /* f is of degree 1, with coefficients that do not depend on the time */

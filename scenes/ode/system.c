@@ -311,25 +311,37 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
 
 /* ---- how fast the system is ---- */
 
+/* The slope of a value from four places at distances -2, -1, 1 and 2 h. Across a jump it is that of the steeper side. */
+static double slope_of(const double *values[4], size_t i, double h)
+{
+    const double central = (values[2][i] - values[1][i]) / (2 * h), below = (values[1][i] - values[0][i]) / h,
+                 above = (values[3][i] - values[2][i]) / h,
+                 beside = fabs(below) > fabs(above) ? below : above;
+    return fabs(central) > 1e3 * (fabs(beside) + 1) ? beside : central;
+}
+
 /* Returns 1 / the largest frequency of the linearised field at a state of one member, or of its largest rate
    if nothing turns; 1 if both are 0. */
 static double radian_at(const struct gm_problem *problem, const double *y)
 {
     const size_t n = problem->n;
-    double *there = malloc((n * n + 4 * n) * sizeof *there), fastest = 0, largest = 0;
+    double *there = malloc((n * n + 5 * n) * sizeof *there), fastest = 0, largest = 0;
     if (there) {
-        double *below = there + n, *above = below + n, *matrix = above + n;
+        double *matrix = there + 5 * n;
+        const double *values[4] = {there + n, there + 2 * n, there + 3 * n, there + 4 * n};
         for (size_t k = 0; k < n; k++) {
+            static const double places[] = {-2, -1, 1, 2};
             memcpy(there, y, n * sizeof *y);
             const double h = 1e-6 * fmax(fabs(y[k]), 1e-2);
-            there[k] = y[k] - h;
-            gm_field(problem, there, below, 1);
-            there[k] = y[k] + h;
-            gm_field(problem, there, above, 1);
+            for (size_t p = 0; p < GM_COUNT(places); p++) {
+                there[k] = y[k] + places[p] * h;
+                gm_field(problem, there, there + (p + 1) * n, 1);
+            }
             for (size_t i = 0; i < n; i++) {
-                matrix[i * n + k] = (above[i] - below[i]) / (2 * h);
+                matrix[i * n + k] = slope_of(values, i, h);
             }
         }
+        double *below = there + n;
         if (gm_eigenvalues(matrix, n, there, below)) {
             for (size_t i = 0; i < n; i++) {
                 fastest = fmax(fastest, fabs(below[i]));

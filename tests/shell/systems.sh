@@ -1134,6 +1134,26 @@ grep -q 'H conserves energy  *not decided' out || fail "avf2 across corners: $(c
     fail "order through breaks: $(cat out)"
 "$geomint" certify rk4 --on springs.system breaks=ignored >out && grep -q 'no order can be measured' out ||
     fail "order across jumps: $(cat out)"
+# where H jumps its flow does not conserve it: no scheme is praised or blamed for that
+for H in 'p^2/2 + if(q > 0.2, 2*q^2 + 1, q^2/2)' 'p^2/2 + q^2/2 + floor(2*q)'; do
+    printf 'coordinates: q\nmomenta: p\nH: %s\nstart: q = 1, p = 0\ndt: 0.1\n' "$H" >wall.system
+    "$geomint" certify avf2 --on wall.system >out || fail "a jump of H: $(cat out)"
+    grep -q 'H conserves energy  *not measured H jumps' out || fail "a jump of H: $(cat out)"
+done
+# maps, as steps of explicit Euler, have no parts: Lozi's, in steps of its formula
+"$geomint" run system rate='x = 1-1.7*abs(x)+y-x, y = 0.5*x-y' x=.1 y=.1 until=20 dt=1 scheme=explicit-euler --json --state >out || fail "a map of pieces: $(cat out)"
+python3 -c '
+import json
+x, y = .1, .1
+for _ in range(20):
+    x, y = 1 - 1.7*abs(x) + y, .5*x
+state = json.load(open("out"))["state"]
+assert abs(state[0] - x) + abs(state[1] - y) < 1e-10, (state, x, y)' || fail "a map of pieces: $(cat out)"
+# the step that is chosen for a start on a switch is that of the motion beside it
+for words in 'q=0 p=1' 'q=1 p=0'; do
+    "$geomint" run system H='p^2/2+abs(q)' $words scheme=rk4 | grep -q '^  t  *100$' || fail "the usual step, $words"
+done
+"$geomint" run system rate='x = y, y = -x - 0.2*y + 0.5*sign(y)' x=3.1 y=0 scheme=rk4 | grep -q '^  t  *100$' || fail "the usual step on a switch"
 # each lane that steps across breaks is named, once
 "$geomint" run springs.system scheme=gsl-msadams,dopri5,dopri5,rk4 dt=.1,.1,.2,.1 zip=yes >out 2>notes || fail "lanes across breaks: $(cat notes)"
 [ "$(grep -c 'steps across breaks; rk4 and gauss4 locate them' notes)" = 2 ] && grep -q 'dopri5 steps' notes &&

@@ -70,6 +70,7 @@ struct gm_user_model {
     size_t components;           /* the system's components, and t if it is timed */
     struct gm_user_rates *rates; /* the first for all parameters, then those for a value of one */
     size_t rate_count;
+    bool energy_jumps;                    /* gm_ode.energy_jumps */
     bool has_jacobian;                    /* false if the matrix would be too large */
     struct gm_user_lagrangian lagrangian; /* a Lagrangian system's, instead of rates and Jacobian */
     struct gm_user_functions constraints; /* g(q) = 0 */

@@ -387,6 +387,11 @@ static void open_model(struct gm_arena *arena, void *data)
         gm_arena_need(arena, gm_formula_quicken(&system->graph, model->rates[i].nodes, n));
     }
     gm_arena_need(arena, !system->graph.failed);
+    const bool energy = system->kind == GM_CANONICAL || system->kind == GM_POISSON;
+    gm_node_id at = GM_NO_NODE;
+    model->energy_jumps =
+        opening->whole && energy && !model->findings[GM_FACT_SMOOTH].holds &&
+        gm_breaks_pass(arena, system, &system->energy, 1, system->rates, n, &at) == GM_NOT_ZERO;
     bool switches = gm_system_locates_breaks(system);
     for (size_t i = 0; i < model->event_count; i++) {
         switches |= model->events[i].switches;

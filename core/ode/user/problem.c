@@ -472,6 +472,7 @@ static void open_problem(struct gm_arena *arena, void *data)
     self->ode = (struct gm_ode){.written = true,
                                 .components = model->names[0] ? model->names : NULL,
                                 .angles = angles,
+                                .energy_jumps = model->energy_jumps,
                                 .quadratic = !constrained && holds(self, GM_FACT_QUADRATIC),
                                 .linear = !constrained && holds(self, GM_FACT_LINEAR) &&
                                           holds(self, GM_FACT_AUTONOMOUS),
