@@ -169,16 +169,25 @@ const gm_residue *gm_random_values_next(struct gm_random_values *values)
     return NULL;
 }
 
-/* True if a part has one of two values, as a sign or a root, so that a further point is half a proof at
-   most. */
-static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
+/* True if a part is defined in pieces: random points may miss one. */
+static bool has_pieces(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
 {
     bool found = false;
     for (size_t k = 0; k < count; k++) {
         const enum gm_operation operation = graph->nodes[parts[k]].operation;
-        found |=
-            operation > GM_VARIABLE && (!gm_operation_rows[operation].smooth ||
-                                        operation == GM_OPERATION_SQRT || operation == GM_OPERATION_POWER);
+        found |= operation > GM_VARIABLE && !gm_operation_rows[operation].smooth;
+    }
+    return found;
+}
+
+/* True if a part has one of two values, as a sign or a root, so that a further point is half a proof at
+   most. */
+static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
+{
+    bool found = has_pieces(graph, parts, count);
+    for (size_t k = 0; k < count; k++) {
+        const enum gm_operation operation = graph->nodes[parts[k]].operation;
+        found |= operation == GM_OPERATION_SQRT || operation == GM_OPERATION_POWER;
     }
     return found;
 }
@@ -292,7 +301,11 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
                 tests = fabs(there.value) <= bound * there.size ? tests + 1 : -1;
             }
         }
-        found = tests < 0 ? GM_NOT_ZERO : proved ? GM_ZERO_PROVED : tests > 0 ? GM_ZERO_TESTED : GM_UNTESTED;
+        const bool meets_all = here == enough || !has_pieces(graph, parts, count);
+        found = tests < 0                ? GM_NOT_ZERO
+                : proved                 ? GM_ZERO_PROVED
+                : tests > 0 && meets_all ? GM_ZERO_TESTED
+                                         : GM_UNTESTED;
     }
     free(memory);
     free(parts);

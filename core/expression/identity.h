@@ -10,7 +10,7 @@ enum gm_identity {
     GM_NOT_ZERO,
     GM_ZERO_PROVED, /* proved for all values of variables and parameters */
     GM_ZERO_TESTED, /* at random points, to rounding; or proved for the values that are fixed */
-    GM_UNTESTED     /* not finite at any tested point, or out of memory */
+    GM_UNTESTED /* not finite at any tested point, not proved for all pieces of its formula, or out of memory */
 };
 
 /* The proof uses the field of the 2^61 - 1 residues (gm_residue_of): + - * / and whole powers are exact, roots are
