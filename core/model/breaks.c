@@ -84,6 +84,8 @@ struct passage {
     size_t count, variables, part_count;
     gm_node_id g;
     bool whole;
+    bool
+        indirect; /* the operation does not jump, but what holds it may, as abs(x)/x, or atan(1/x) at the 0 of x */
     double *point, *base, *unit; /* [variable_count]; the point of the switch, and the unit normal there */
     double *sides[2];            /* the values of all nodes on both sides */
 };
@@ -171,13 +173,14 @@ static enum gm_identity test_passage(const struct passage *passage)
         double size;
         if (find_point(passage, seed)) {
             const double far = jump_over(passage, 1e-4, &size), near = jump_over(passage, 1e-9, &size);
-            if (near > far / 10 + 1e-12 * size) {
+            const bool pole = passage->indirect && near > 10 * far; /* which no motion passes */
+            if (near > far / 10 + 1e-12 * size && !pole) {
                 return GM_NOT_ZERO;
             }
             tests += isfinite(near) && isfinite(far);
         }
     }
-    return tests > 0 ? GM_ZERO_TESTED : GM_UNTESTED;
+    return passage->indirect ? GM_ZERO_PROVED : tests > 0 ? GM_ZERO_TESTED : GM_UNTESTED;
 }
 
 static bool is_node(struct gm_formula *graph, gm_node_id part, const void *node)
@@ -218,13 +221,19 @@ enum gm_identity gm_breaks_pass(struct gm_arena *arena, struct gm_user_system *s
     const bool *switches = NULL;
     bool *varying = gm_arena_take(arena, all, sizeof *varying);
     enum gm_identity worst = GM_ZERO_PROVED;
+    bool turns = false; /* atan turns a pole into a jump */
+    for (size_t k = 0; k < part_count; k++) {
+        turns |= graph->nodes[parts[k]].operation == GM_OPERATION_ATAN;
+    }
     for (size_t k = 0; k < part_count && found < MOST; k++) {
         const enum gm_operation operation = graph->nodes[parts[k]].operation;
-        if (gm_operation_jumps(operation) || operation == GM_OPERATION_ATAN2) { /* by 2 pi where x < 0 */
+        const bool angle = operation == GM_OPERATION_ATAN2 || (turns && operation == GM_OPERATION_DIVIDE);
+        jumps[found] = parts[k];
+        if (operation > GM_VARIABLE && !angle && !gm_operation_rows[operation].smooth) {
             switches = switches ? switches : gm_breaks_switches(arena, system);
-            jumps[found] = parts[k];
-            found += switches[parts[k]] || operation == GM_OPERATION_ATAN2;
+            found += switches[parts[k]];
         }
+        found += angle;
     }
     for (size_t i = 0; i < system->initial; i++) {
         varying[i] = i < system->parameters || i >= system->velocities;
@@ -235,19 +244,25 @@ enum gm_identity gm_breaks_pass(struct gm_arena *arena, struct gm_user_system *s
     }
     for (size_t k = 0; k < found && worst != GM_NOT_ZERO; k++) {
         const struct gm_node node = graph->nodes[jumps[k]];
+        const bool quotient = node.operation == GM_OPERATION_DIVIDE;
         const size_t inner = gm_arena_mark(arena), given = count + (direction ? variables : 0);
         struct passage passage = {.system = system,
                                   .nodes = nodes,
                                   .count = count,
                                   .direction = direction,
                                   .variables = variables,
+                                  .indirect = quotient || (node.operation != GM_OPERATION_ATAN2 &&
+                                                           !gm_operation_jumps(node.operation)),
                                   .whole = node.operation == GM_OPERATION_FLOOR ||
                                            node.operation == GM_OPERATION_CEIL ||
                                            node.operation == GM_OPERATION_MOD};
         passage.g = node.operation == GM_OPERATION_MOD
                         ? gm_simplified(graph, GM_OPERATION_DIVIDE, node.a, node.b)
-                    : node.operation == GM_OPERATION_BELOW ? gm_difference(graph, node.a, node.b)
-                                                           : node.a;
+                    : quotient ? node.b
+                    : node.operation == GM_OPERATION_BELOW || node.operation == GM_OPERATION_MIN ||
+                            node.operation == GM_OPERATION_MAX
+                        ? gm_difference(graph, node.a, node.b)
+                        : node.a;
         passage.gradient = roots + given;
         gm_arena_need(arena, gm_gradient(graph, passage.g, varying, all, roots + given));
         roots[given + all] = passage.g;
