@@ -379,6 +379,9 @@ static void feed(void)
 
 int gm_console_key(void)
 {
+    if (!active) { /* it leaves after a stop: ncurses would switch the keypad on in a terminal that is given back */
+        return -1;
+    }
     feed();
     int key = gm_curses()->wgetch(keys);
     return key == ERR ? -1 : key;
