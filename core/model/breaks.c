@@ -84,8 +84,7 @@ struct passage {
     size_t count, variables, part_count;
     gm_node_id g;
     bool whole;
-    bool
-        indirect; /* the operation does not jump, but what holds it may, as abs(x)/x, or atan(1/x) at the 0 of x */
+    bool indirect; /* the operation itself does not jump, but abs(x)/x does, or atan(1/x) where x is 0 */
     double *point, *base, *unit; /* [variable_count]; the point of the switch, and the unit normal there */
     double *sides[2];            /* the values of all nodes on both sides */
 };

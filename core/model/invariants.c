@@ -734,7 +734,7 @@ static gm_node_id write_momentum_map(struct gm_user_system *system, struct gm_ar
             matrix[i * n + j] = sign * entries[n + conjugate * n + j];
         }
         for (size_t j = 0; j <= i; j++) {
-            if (matrix[i * n + j] != (j < i ? matrix[j * n + i] : matrix[i * n + i])) {
+            if (matrix[i * n + j] != matrix[j * n + i]) {
                 return GM_NO_NODE;
             }
             const gm_node_id part = gm_formula_constant(graph, matrix[i * n + j] / (i == j ? 2 : 1));
@@ -749,28 +749,38 @@ static gm_node_id write_momentum_map(struct gm_user_system *system, struct gm_ar
                : GM_NO_NODE;
 }
 
-/* The number of the invariant whose gradient is parallel to that of a momentum map; their count: of none. */
+static bool has_gradient_along(struct gm_user_system *system, struct gm_arena *arena, gm_node_id node,
+                               const gm_node_id *slopes)
+{
+    struct gm_formula *graph = &system->graph;
+    gm_node_id *own = gm_arena_take(arena, system->n, sizeof *own);
+    gm_arena_need(arena, gm_gradient(graph, node, NULL, system->n, own));
+    bool parallel = true;
+    for (size_t i = 1; i < system->n && parallel; i++) {
+        for (size_t j = 0; j < i && parallel; j++) {
+            const gm_node_id crossed = gm_difference(graph, gm_product(graph, slopes[i], own[j]),
+                                                     gm_product(graph, slopes[j], own[i]));
+            parallel = gm_equations_vanishes(system, crossed) == GM_ZERO_PROVED;
+        }
+    }
+    return parallel;
+}
+
+/* The number of the first invariant that a momentum map is a function of; their count: of none. */
 static size_t paired_with(struct gm_user_system *system, struct gm_arena *arena, gm_node_id map,
                           const struct gm_found_invariants *invariants)
 {
-    struct gm_formula *graph = &system->graph;
-    const size_t n = system->n;
-    gm_node_id *slopes = gm_arena_take(arena, 2 * n, sizeof *slopes), *others = slopes + n;
-    bool parallel = false;
-    size_t number = 0;
-    for (; number < invariants->count && map != GM_NO_NODE && !parallel; number += !parallel) {
-        gm_arena_need(arena, gm_gradient(graph, map, NULL, n, slopes) &&
-                                 gm_gradient(graph, invariants->list[number].node, NULL, n, others));
-        parallel = true;
-        for (size_t k = 0; k < n * n && parallel; k++) {
-            const size_t i = k / n, j = k % n;
-            parallel = j >= i ||
-                       gm_equations_vanishes(
-                           system, gm_difference(graph, gm_product(graph, slopes[i], others[j]),
-                                                 gm_product(graph, slopes[j], others[i]))) == GM_ZERO_PROVED;
-        }
+    if (map == GM_NO_NODE) {
+        return invariants->count;
     }
-    return parallel ? number : invariants->count;
+    gm_node_id *slopes = gm_arena_take(arena, system->n, sizeof *slopes);
+    gm_arena_need(arena, gm_gradient(&system->graph, map, NULL, system->n, slopes));
+    size_t number = 0;
+    while (number < invariants->count &&
+           !has_gradient_along(system, arena, invariants->list[number].node, slopes)) {
+        number++;
+    }
+    return number;
 }
 
 size_t gm_symmetries_find(struct gm_user_system *system, struct gm_arena *arena,

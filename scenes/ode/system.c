@@ -311,11 +311,15 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
 
 /* ---- how fast the system is ---- */
 
-/* The slope of a value from four places at distances -2, -1, 1 and 2 h. Across a jump it is that of the steeper side. */
-static double slope_of(const double *values[4], size_t i, double h)
+/* The slope of a value from places at distances -2, -1, 1 and 2 h. Of a field that is not smooth, across a jump, it is that
+   of the steeper side. */
+static double slope_of(const double *values[4], size_t i, double h, bool rough)
 {
-    const double central = (values[2][i] - values[1][i]) / (2 * h), below = (values[1][i] - values[0][i]) / h,
-                 above = (values[3][i] - values[2][i]) / h,
+    const double central = (values[2][i] - values[1][i]) / (2 * h);
+    if (!rough) {
+        return central;
+    }
+    const double below = (values[1][i] - values[0][i]) / h, above = (values[3][i] - values[2][i]) / h,
                  beside = fabs(below) > fabs(above) ? below : above;
     return fabs(central) > 1e3 * (fabs(beside) + 1) ? beside : central;
 }
@@ -325,6 +329,7 @@ static double slope_of(const double *values[4], size_t i, double h)
 static double radian_at(const struct gm_problem *problem, const double *y)
 {
     const size_t n = problem->n;
+    const bool rough = gm_ode_of(problem)->rough;
     double *there = malloc((n * n + 5 * n) * sizeof *there), fastest = 0, largest = 0;
     if (there) {
         double *matrix = there + 5 * n;
@@ -333,12 +338,12 @@ static double radian_at(const struct gm_problem *problem, const double *y)
             static const double places[] = {-2, -1, 1, 2};
             memcpy(there, y, n * sizeof *y);
             const double h = 1e-6 * fmax(fabs(y[k]), 1e-2);
-            for (size_t p = 0; p < GM_COUNT(places); p++) {
+            for (size_t p = rough ? 0 : 1; p < (rough ? 4 : 3); p++) {
                 there[k] = y[k] + places[p] * h;
                 gm_field(problem, there, there + (p + 1) * n, 1);
             }
             for (size_t i = 0; i < n; i++) {
-                matrix[i * n + k] = slope_of(values, i, h);
+                matrix[i * n + k] = slope_of(values, i, h, rough);
             }
         }
         double *below = there + n;

@@ -215,8 +215,8 @@ static void iterate(struct search *search)
     }
 }
 
-/* Halves the steps until the end changes by less than 2e-12 of the extent, or only by round-off, which steps do not reduce. Returns
-   true if they were halved. */
+/* Halves the steps until the end changes by less than 2e-12 of the extent, or only by round-off, which steps do not
+   reduce. Returns true if they were halved. */
 static bool refine(struct search *search)
 {
     struct gm_periodic *orbit = search->orbit;
