@@ -82,6 +82,15 @@ static bool is_choice(const struct writer *writer, const struct gm_node *here, c
     return second->operation == GM_OPERATION_SUBTRACT && second->b == (*chosen)->a;
 }
 
+/* True for a constant that is written as a product or a quotient, such as 2*pi. */
+static bool is_compound(const struct writer *writer, gm_node_id node)
+{
+    const struct gm_node *here = &writer->graph->nodes[node];
+    char text[64];
+    return here->operation == GM_CONSTANT &&
+           strpbrk(gm_number_format(here->value, text, sizeof text), "*/") != NULL;
+}
+
 static int priority_of(const struct writer *writer, gm_node_id node)
 {
     const struct gm_node *here = &writer->graph->nodes[node];
@@ -91,7 +100,7 @@ static int priority_of(const struct writer *writer, gm_node_id node)
     const struct gm_node *chosen, *other;
     switch (here->operation) {
     case GM_CONSTANT:
-        return signbit(here->value) ? SIGN : WHOLE;
+        return signbit(here->value) ? SIGN : !writer->latex && is_compound(writer, node) ? PRODUCT : WHOLE;
     case GM_OPERATION_ADD:
         return is_choice(writer, here, &chosen, &other) ? WHOLE : SUM;
     case GM_OPERATION_SUBTRACT:
@@ -114,7 +123,7 @@ static int priority_of(const struct writer *writer, gm_node_id node)
 static bool leads_with_minus(const struct writer *writer, gm_node_id node)
 {
     int priority = priority_of(writer, node);
-    while (priority == SUM || priority == PRODUCT) {
+    while ((priority == SUM || priority == PRODUCT) && writer->graph->nodes[node].operation != GM_CONSTANT) {
         node = writer->graph->nodes[node].a;
         const int inner = priority_of(writer, node);
         if (inner < priority) {
@@ -164,10 +173,12 @@ static void write_binary(const struct writer *writer, const struct gm_node *here
 static void write_power(const struct writer *writer, const struct gm_node *here)
 {
     const bool simple =
-        priority_of(writer, here->b) >= RAISED || writer->graph->nodes[here->b].operation == GM_CONSTANT;
+        priority_of(writer, here->b) >= RAISED ||
+        (writer->graph->nodes[here->b].operation == GM_CONSTANT && !is_compound(writer, here->b));
     /* a base that LaTeX writes as a fraction or a function needs parentheses */
-    const bool is_leaf = name_of(writer->naming, here->a, writer->root) ||
-                         writer->graph->nodes[here->a].operation <= GM_VARIABLE;
+    const bool is_leaf =
+        name_of(writer->naming, here->a, writer->root) ||
+        (writer->graph->nodes[here->a].operation <= GM_VARIABLE && !is_compound(writer, here->a));
     write_enclosed(writer, here->a, priority_of(writer, here->a) < WHOLE || (writer->latex && !is_leaf));
     fputs(writer->notation->raise, writer->out);
     write_enclosed(writer, here->b, !simple && !writer->latex);
@@ -246,8 +257,7 @@ static void write_constant(const struct writer *writer, double value)
         const int before = (int)(pi - text);
         fprintf(writer->out, "%.*s\\pi{}%s", before > 0 && pi[-1] == '*' ? before - 1 : before, text, pi + 2);
     } else {
-        /* x / (2*pi) is not x / 2*pi */
-        fprintf(writer->out, !writer->latex && strpbrk(text, "*/") ? "(%s)" : "%s", text);
+        fputs(text, writer->out);
     }
 }
 

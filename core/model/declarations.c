@@ -97,35 +97,49 @@ static void add_derived(struct gm_reading *reading, const char *before, const ch
     }
 }
 
-/* parameter: NAME = value; low .. high; meaning; unit */
-static void add_parameter(struct gm_reading *reading, const struct gm_read_line *line, bool lists)
+/* Adds the entries NAME[n] of a list, with n values or one for all. */
+static void add_list(struct gm_reading *reading, const struct gm_target *target)
 {
-    struct gm_span rest = line->value, piece;
-    gm_span_take(reading->text, &rest, ";", &piece);
-    const struct gm_target target = gm_reading_assignment(reading, piece);
-    const bool is_list = target.index.begin < target.index.end;
+    const size_t first = reading->parameter_count, entries = reading->entry_count;
+    add_names(reading, target, GM_ENTRY_PARAMETER, &reading->parameter_count);
+    struct gm_span values = target->value, value = values;
+    size_t pieces = 0;
+    for (size_t i = first; i < reading->parameter_count; i++) {
+        pieces += gm_span_take(reading->text, &values, ",", &value);
+        reading->entries[entries + i - first].value = value;
+    }
+    gm_system_refuse_if(
+        reading->system,
+        values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first),
+        target->value.begin, "%zu values were expected, or one for all", reading->parameter_count - first);
+}
+
+/* parameter: NAME = value, ...; low .. high; meaning; unit, or parameter: NAME[n] = value, ...; ... */
+static void add_parameters(struct gm_reading *reading, const struct gm_read_line *line, bool lists)
+{
+    struct gm_span rest = line->value, given, piece;
+    gm_span_take(reading->text, &rest, ";", &given);
+    const struct gm_target whole = gm_reading_assignment(reading, given);
+    const bool is_list = whole.index.begin < whole.index.end;
     if (is_list != lists) {
         return;
     }
     const size_t first = reading->parameter_count, entries = reading->entry_count;
-    add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count);
-    struct gm_span values = target.value, value = values;
-    size_t pieces = 0;
-    for (size_t i = first; i < reading->parameter_count; i++) {
-        struct gm_entry *entry = &reading->entries[entries + i - first];
-        struct gm_system_variable *variable = &reading->system->variables[i];
-        pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
-        entry->value = value;
-        variable->start_place = entry->place;
-        variable->text = gm_reading_text(reading, value);
+    if (is_list) {
+        add_list(reading, &whole);
     }
-    gm_system_refuse_if(
-        reading->system,
-        is_list && (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first)),
-        target.value.begin, "%zu values were expected, or one for all", reading->parameter_count - first);
+    while (!is_list && gm_span_take(reading->text, &given, ",", &piece)) {
+        const struct gm_target target = gm_reading_assignment(reading, piece);
+        gm_system_refuse_if(reading->system, target.index.begin < target.index.end, target.index.begin,
+                            "a list needs a line of its own");
+        add_names(reading, &target, GM_ENTRY_PARAMETER, &reading->parameter_count);
+    }
     const struct gm_written_range range = gm_reading_range(reading, rest);
     for (size_t i = first; i < reading->parameter_count; i++) {
+        const struct gm_entry *entry = &reading->entries[entries + i - first];
         struct gm_system_variable *variable = &reading->system->variables[i];
+        variable->start_place = entry->place;
+        variable->text = gm_reading_text(reading, entry->value);
         variable->low = range.low;
         variable->high = range.high;
         variable->meaning = gm_reading_text(reading, range.meaning);
@@ -237,7 +251,7 @@ void gm_declared_parameters(struct gm_reading *reading)
             if (reading->lines[i].word == GM_WORD_PARAMETER && room) {
                 add_key(reading, &reading->lines[i]);
             } else if (reading->lines[i].word == GM_WORD_PARAMETER) {
-                add_parameter(reading, &reading->lines[i], lists);
+                add_parameters(reading, &reading->lines[i], lists);
             }
         }
         give(reading);

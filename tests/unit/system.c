@@ -502,6 +502,7 @@ static const struct {
     {"coordinates: q[3..1]\nH: 1\n", 1, 16, "3 .. 1 runs downwards"},
     {"coordinates: q[1..0]\nH: 1\n", 1, 16, "at least one element"},
     {"coordinates: q[N]\nH: 1\n", 1, 16, "the bounds of a list"},
+    {CANONICAL "parameter: a = 1, b[1..2] = 2\nH: q\n", 3, 21, "a list needs a line of its own"},
     {"coordinates: q[1..2]\nH: q[3]\n", 2, 4, "q[3] lies outside of q[1] .. q[2]"},
     {CANONICAL "H: p_q^2/2 + 1/(q - 1)\n", 3, 14, "not finite at the start"},
     {CANONICAL "H: p_q^2/2\nconstraint: q - 2\n", 4, 13, "breaks this constraint"},

@@ -177,6 +177,22 @@ static void functions_are_called(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* Several parameters on a line have the same range; lists need lines of their own. */
+static void parameters_share_a_line(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene = scene_of(
+        "components: x\nparameter: a = 1, b = max(2, c), c = 3; 0 .. 9; factors\nrate: x = a + 10*b + 100*c\n"
+        "start: x = 0\ndt: 1\n");
+    struct gm_lane *lane = running(scene, "c=4", "rk4", 1);
+    assert_true(gm_run_state(lane->run)[0] == 441);
+    gm_lane_close(lane);
+    void *parameters = gm_scene_defaults(scene);
+    assert_int_not_equal(gm_parameter_set(gm_scene_parameter(scene, "b"), parameters, "10"), GM_PARSED);
+    free(parameters);
+    gm_system_scene_close(scene);
+}
+
 /* x(0) in rates and lets is the start of the run, not of the file. */
 static void starts_are_known(void **unused)
 {
@@ -632,6 +648,7 @@ int main(void)
         cmocka_unit_test(options_describe_observables),
         cmocka_unit_test(exact_solutions_are_values),
         cmocka_unit_test(functions_are_called),
+        cmocka_unit_test(parameters_share_a_line),
         cmocka_unit_test(starts_are_known),
         cmocka_unit_test(requirements_refuse),
         cmocka_unit_test(derived_starts_follow),
