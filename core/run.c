@@ -125,14 +125,13 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
 }
 
-/* The task that reads half `from` and writes half `to`. */
-static struct gm_task task_of(const struct gm_run *run, int from, int to, int64_t steps)
+/* Sets the task from a state with all that belongs to it, in the run's block or of that layout, to another one. */
+static void set_task(struct gm_task *task, const struct gm_run *run, const double *y, double *out,
+                     int64_t steps)
 {
     const size_t count = state_count(run), carried = carry_count(run);
     const bool remembers = run->scheme->family->memory != NULL;
-    const double *y = half(run, from);
-    double *out = half(run, to);
-    return (struct gm_task){
+    *task = (struct gm_task){
         .problem = run->motion,
         .scheme = run->scheme,
         .dt = run->dt,
@@ -173,22 +172,15 @@ static void count_progress(struct gm_run *run, const struct gm_progress *progres
     run->iterations += progress->iterations;
 }
 
-/* The task of a part of a step, from a state with all that belongs to it, in the run's block or of that layout. */
-static struct gm_task part_of(const struct gm_run *run, const double *from, double t, double dt, double *to)
+/* Sets the task of a part of a step. */
+static void set_part(struct gm_task *task, const struct gm_run *run, const double *from, double t, double dt,
+                     double *to)
 {
-    const size_t count = state_count(run), memory = count + carry_count(run);
-    struct gm_task task = task_of(run, run->current, run->current, 1);
-    task.y = from;
-    task.out = to;
-    task.carry = task.carry ? from + count : NULL;
-    task.carry_out = task.carry ? to + count : NULL;
-    task.memory = task.memory ? from + memory : NULL;
-    task.memory_out = task.memory ? to + memory : NULL;
-    task.t = task.t0 = t;
-    task.n = 0;
-    task.dt = dt;
-    task.steps_before = run->steps - 1;
-    return task;
+    set_task(task, run, from, to, 1);
+    task->t = task->t0 = t;
+    task->n = 0;
+    task->dt = dt;
+    task->steps_before = run->steps - 1;
 }
 
 /* Makes a part of a step, which changes the run only if it is counted; gm_event_step.part */
@@ -199,7 +191,8 @@ static double make_part(void *data, const double *from, double t, double dt, dou
     if (!gm_run_motion(run)) {
         return NAN;
     }
-    const struct gm_task task = part_of(run, from, t, dt, to);
+    struct gm_task task;
+    set_part(&task, run, from, t, dt, to);
     reset_workspace(run);
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->motion)(&task);
     if (counted) {
@@ -215,7 +208,8 @@ static double make_part(void *data, const double *from, double t, double dt, dou
 static bool restart(void *data, double t, double *state)
 {
     struct gm_run *run = data;
-    const struct gm_task task = part_of(run, state, t, run->dt, state);
+    struct gm_task task;
+    set_part(&task, run, state, t, run->dt, state);
     run->status = run->scheme->family->start ? run->scheme->family->start(&task) : GM_OK;
     return run->status == GM_OK;
 }
@@ -262,7 +256,8 @@ static void arm(struct gm_run *run, bool first)
 static void start(struct gm_run *run)
 {
     if (run->scheme->family->start && run->status == GM_OK) {
-        const struct gm_task task = task_of(run, run->current, run->current, 0);
+        struct gm_task task;
+        set_task(&task, run, half(run, run->current), half(run, run->current), 0);
         const unsigned long refusals = gm_memory_refusals();
         run->status = run->scheme->family->start(&task);
         if (gm_memory_refusals() != refusals) {
@@ -341,7 +336,8 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count)
 /* The steps since the other half, into the current one. */
 static struct gm_task task_again(const struct gm_run *run)
 {
-    struct gm_task task = task_of(run, 1 - run->current, run->current, run->behind);
+    struct gm_task task;
+    set_task(&task, run, half(run, 1 - run->current), half(run, run->current), run->behind);
     task.n -= run->behind;
     task.steps_before -= run->behind;
     task.t = run->t0 + (double)task.n * run->dt;
@@ -383,7 +379,9 @@ static enum gm_status make_steps(struct gm_run *run, int64_t steps, double until
     }
     gm_loop *loop = gm_scheme_loop(run->scheme, run->motion);
     const bool in_place = is_in_place(run, loop, steps);
-    struct gm_task task = task_of(run, run->current, in_place ? run->current : 1 - run->current, steps);
+    struct gm_task task;
+    set_task(&task, run, half(run, run->current), half(run, in_place ? run->current : 1 - run->current),
+             steps);
     task.until = until;
     task.watches = watches;
     run->behind = in_place ? run->behind : 0;
@@ -480,7 +478,9 @@ static void make_steps_before_events(struct gm_run *run, int64_t steps)
     int64_t made = 0, together = 1; /* the first step shows if the loop traces */
     while (made < steps) {
         const int64_t left = steps - made;
-        struct gm_task task = task_of(run, run->current, 1 - run->current, left < together ? left : together);
+        struct gm_task task;
+        set_task(&task, run, half(run, run->current), half(run, 1 - run->current),
+                 left < together ? left : together);
         task.trace = run->problem->m == 1 && run->problem->passive == 0 ? trace : NULL;
         const struct gm_progress progress = loop(&task);
         for (int64_t k = 0; k < progress.done; k++) {

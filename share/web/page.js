@@ -142,7 +142,8 @@ function showAll(late) {
     at('overlay').setAttribute('aria-pressed', view.overlaid);
     at('clock').textContent = `t = ${digits(view.t)}`;
     at('clock').title = view.unit;
-    at('speed').textContent = `${speed}/s${late && playing ? ', late' : ''}`;
+    const step = Number(view.parameters.find(({key}) => key === 'dt')?.value); // a long step takes its time at this speed
+    at('speed').textContent = `${speed}/s${!playing ? '' : late ? ', late' : step > 2 * speed ? `, a step in ${digits(step / speed, 2)} s` : ''}`;
     const line = at('line');
     line.max = Math.max(view.reach, view.passed, Number.MIN_VALUE);
     line.setAttribute('aria-valuetext', at('clock').textContent);
