@@ -75,15 +75,16 @@ struct gm_task {
 struct gm_progress {
     int64_t done;
     enum gm_status status;
-    /* What a substep counts is not side by side: compilers read such pairs at once, which waits for both to be written. */
+    /* The counts of a substep are kept apart, since compilers read neighbours at once, and that waits for both to be
+       written. */
     unsigned long evaluations;
     unsigned long factor_solves; /* solves with factors that are made once, in iterations of flows */
     unsigned long solves;
     unsigned long own_steps, rejected; /* accepted and rejected steps of step size control by a tolerance */
     unsigned long iterations;
-    struct gm_unsolved unsolved;       /* reason of a step without convergence, if the family has one */
-    double t;                          /* the time reached by adaptive schemes */
-    bool traced;                       /* the states of `done` steps are in task.trace */
+    struct gm_unsolved unsolved; /* reason of a step without convergence, if the family has one */
+    double t;                    /* the time reached by adaptive schemes */
+    bool traced;                 /* the states of `done` steps are in task.trace */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);
