@@ -32,26 +32,37 @@ static double next_share(struct place newest, struct place other, struct place t
 double gm_zero_beyond(double (*value)(void *data, double s), void *data, double low, double at_low,
                       double at_end)
 {
-    enum { MOST = 60 };
+    enum { MOST = 100 };
     const double tolerance = 2.2e-16;
     struct place other = {low, at_low}, newest = {1, at_end}, third = other;
     const bool below = at_end < 0;
     if (isnan(at_low) || isnan(at_end) || (at_low < 0) == below) {
         return NAN;
     }
-    double t = 0.5;
-    for (int i = 0; i < MOST && fabs(newest.s - other.s) > 2 * tolerance; i++) {
-        const double s = newest.s + t * (other.s - newest.s);
+    double t = at_end / (at_end - at_low), width = 1 - low, stride = tolerance;
+    for (int i = 0; i < MOST && width > 2 * tolerance; i++) {
+        const double least = tolerance / width,
+                     s = newest.s + (isnan(t) ? 0.5 : fmin(fmax(t, least), 1 - least)) * (other.s - newest.s);
         const struct place next = {s, value(data, s)};
         if (isnan(next.value)) {
             return NAN;
         }
         const bool same = (next.value < 0) == (newest.value < 0);
+        const double moved = fabs(next.s - newest.s);
         third = same ? newest : other;
         other = same ? other : newest;
         newest = next;
-        const double least = tolerance / fabs(other.s - newest.s);
-        t = fmin(fmax(next_share(newest, other, third), least), 1 - least);
+        width = fabs(other.s - newest.s);
+        t = next_share(newest, other, third);
+        /* near the zero the values are round-off, but the other end may still be far: strides that grow lead across the
+           zero, and halves follow */
+        const bool is_near = newest.value == 0 || other.value == 0 || t * width < tolerance ||
+                             (t == 0.5 && moved <= 64 * tolerance);
+        stride = !same && stride > tolerance ? 1 : stride;
+        if (is_near && stride < width / 2) {
+            t = stride / width;
+            stride *= 4;
+        }
     }
     return (newest.value < 0) == below ? newest.s : other.s;
 }

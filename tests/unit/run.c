@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "core/basics.h"
+#include "core/events.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
@@ -700,9 +701,74 @@ static void runs_end_where_they_are_to(void **unused)
     gm_run_close(counts);
 }
 
+/* A function along a step that is 0 at a place, and how often it was asked for. */
+struct along {
+    double (*function)(double distance);
+    double place;
+    int asked;
+};
+
+static double value_along(void *data, double s)
+{
+    struct along *along = data;
+    along->asked++;
+    return along->function(s - along->place);
+}
+
+static double curved(double x)
+{
+    return sin(0.1 * x) * (1 + 0.03 * x) + 0.002 * x * x;
+}
+
+static double rounded(double x)
+{
+    return 1e3 + 0.1 * x - 1e3;
+}
+
+static double flat(double x)
+{
+    return x * x * x;
+}
+
+static double resting(double x)
+{
+    return fabs(x) < 1e-9 ? 0 : x;
+}
+
+static double jumping(double x)
+{
+    return x < 0 ? -1 : 2;
+}
+
+/* A step is made for each value, so a section costs as much as values are asked for. */
+static void zeros_need_few_values(void **unused)
+{
+    (void)unused;
+    const struct {
+        double (*function)(double distance);
+        int most;
+        double accuracy; /* of the place, as far as round-off lets it be seen */
+    } rows[] = {{curved, 7, 5e-16},
+                {rounded, 40, 3e-12},
+                {flat, 80, 5e-16},
+                {resting, 45, 1.1e-9},
+                {jumping, 60, 5e-16}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        for (int k = 1; k < 100; k++) {
+            struct along along = {rows[i].function, k / 100.0 + 1e-3 / k, 0};
+            const double s = gm_zero_beyond(value_along, &along, 0, along.function(-along.place),
+                                            along.function(1 - along.place));
+            assert_true(along.asked <= rows[i].most);
+            assert_true(fabs(s - along.place) < rows[i].accuracy);
+            assert_true(along.function(s - along.place) >= 0);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(zeros_need_few_values),
         cmocka_unit_test(pieces_do_not_matter),
         cmocka_unit_test(members_do_not_feel_each_other),
         cmocka_unit_test(instruction_sets_agree),
