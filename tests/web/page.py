@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page of `geomint web` in headless Chromium against the native library: page.py BUILD PAGE.html [SCREENSHOTS].
+"""The page of `geomint web` in headless Chromium against the native library: page.py BUILD PAGE.html [SCREENSHOTS], or
+page.py BUILD PAGE.html frames [SECONDS], which plays that long and prints what frames cost and how much memory is used.
 What its controls do must give the numbers that the same verbs of geomint.h give, its PNG the pixels of `geomint render`, and
 nothing may be requested of the network or complained about in the console."""
 import asyncio
@@ -8,6 +9,7 @@ import ctypes
 import json
 import os
 import shlex
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -18,7 +20,8 @@ import urllib.request
 import websockets
 
 build, template = (os.path.abspath(path) for path in sys.argv[1:3])
-shots = sys.argv[3] if len(sys.argv) > 3 else None
+timed = sys.argv[3:4] == ["frames"]
+shots = sys.argv[3] if len(sys.argv) > 3 and not timed else None
 folder = tempfile.mkdtemp()
 environment = dict(os.environ, GEOMINT_WEB=template, GEOMINT_PAINTER="own")
 failures = []
@@ -354,6 +357,33 @@ async def picture(port):
     os.replace(folder + "/page.png", shots + "/page.png")
 
 
+def memory(process):
+    """Megabytes of a process and of all that it has started."""
+    rows = [line.split() for line in subprocess.run(["ps", "-eo", "pid,ppid,rss"], capture_output=True, text=True,
+                                                    check=True).stdout.splitlines()[1:]]
+    family = {str(process)}
+    while not family >= (more := {pid for pid, parent, _ in rows if parent in family}):
+        family |= more
+    return sum(int(size) for pid, _, size in rows if pid in family) / 1024
+
+
+async def frames(port, process, seconds):
+    for scene in "disc", "kepler", "vortices":
+        page = await Page().open(port, lesson(scene + ".html", scene), width=1648, height=866)
+        await page.value("play(true)")
+        await asyncio.sleep(3)
+        begun, before, costs = time.monotonic(), memory(process), []
+        first = int(await page.value("document.body.dataset.frames"))
+        while time.monotonic() < begun + seconds:
+            await asyncio.sleep(0.1)
+            costs.append(float(await page.value("document.body.dataset.cost")))
+        count = int(await page.value("document.body.dataset.frames")) - first
+        width, height = await page.value("[canvas.width, canvas.height]")
+        print(f"{scene}, {width} x {height}: {statistics.median(costs):.1f} ms a frame, {count / seconds:.0f} frames a second; "
+              f"{before:.0f} MB, {memory(process):.0f} MB after {seconds} s, t = {await page.value('view.t')}", flush=True)
+        await page.send("Page.close")
+
+
 async def main():
     profile = tempfile.mkdtemp()
     chromium = subprocess.Popen(["chromium", "--headless=new", "--no-sandbox", "--remote-debugging-port=0", "--disable-gpu",
@@ -362,6 +392,9 @@ async def main():
         while not os.path.exists(profile + "/DevToolsActivePort"):
             await asyncio.sleep(0.1)
         port = open(profile + "/DevToolsActivePort", encoding="ascii").readline().strip()
+        if timed:
+            await frames(port, chromium.pid, int(sys.argv[4]) if len(sys.argv) > 4 else 10)
+            return
         await controls(port)
         await other_views(port)
         if shots:
