@@ -158,10 +158,13 @@ static void add_key(struct gm_reading *reading, const struct gm_read_line *line)
     gm_system_refuse_if(system, target.index.begin < target.index.end, target.index.begin,
                         "a room has no lists");
     gm_system_refuse_if(system, value.begin < value.end && !assigned, value.begin, "= was expected");
+    value.begin += assigned;
+    const size_t other = gm_span_until(reading->text, value, "=");
+    gm_system_refuse_if(system, other < value.end, other, "each parameter of a room has a line of its own");
     struct gm_entry entry = gm_reading_entry_for(reading, &target, GM_ENTRY_PARAMETER);
     entry.number = reading->parameter_count++;
     struct gm_system_variable *variable = add_name(reading, entry);
-    const char *text = gm_reading_text(reading, (struct gm_span){value.begin + assigned, value.end});
+    const char *text = gm_reading_text(reading, value);
     for (size_t i = 0; i < reading->value_count; i++) {
         text = strcmp(reading->values[i].name, variable->name) == 0 ? reading->values[i].text : text;
     }

@@ -381,6 +381,7 @@ wrong 'there are two observables a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b
 wrong 'at most 160 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # parameters, choices and rectangles of one's own
 wrong 'wrong.room:5:12: a name was expected' 'parameter: 3 = 1'
+wrong 'wrong.room:5:21: each parameter of a room has a line of its own' 'parameter: a = 1, b = 2'
 wrong 'wrong.room:6:12: a is defined twice, first in line 5' 'parameter: a = 1\nparameter: a = 2'
 wrong 'wrong.room:5:19: a range.s lower end comes first' 'parameter: a = 1; 2 .. 1'
 wrong 'wrong.room:5:9: a choice has a name, a default and words' 'choice: a = b'
