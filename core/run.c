@@ -573,6 +573,8 @@ static double end_at(struct gm_run *run, double until)
     double s = gm_zero_beyond(time_beyond, &last, 0, run->t_behind - until, run->t - until);
     if (isnan(s) || !(fabs(time_beyond(&last, s)) <= reach)) {
         time_beyond(&last, s = 1); /* the whole step, as before */
+    } else {
+        last.t = until;
     }
     run->current = 1 - last.from;
     run->behind = 1;
