@@ -125,7 +125,8 @@ const struct gm_problem *gm_run_motion(struct gm_run *run)
     return memory ? take_motion(run, gm_events_modes(run->problem, memory)) : run->problem;
 }
 
-/* Sets the task from a state with all that belongs to it, in the run's block or of that layout, to another one. */
+/* Sets the task from a state with all that belongs to it, in the run's block or of that layout, to another one. It is set
+   in place, since a copy waits for the words that were just written. */
 static void set_task(struct gm_task *task, const struct gm_run *run, const double *y, double *out,
                      int64_t steps)
 {
