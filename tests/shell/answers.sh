@@ -73,3 +73,10 @@ refused() {
     [ "$sentences" = 1 ] || fail "geomint $*: not one sentence: $said"
     printf '%s\n' "$sentence" | grep -q -- "$pattern" || fail "geomint $*: says \"$said\", not \"$pattern\""
 }
+
+# value FILE KEY: of the first lane
+value() {
+    python3 -c 'import json, sys; run = json.loads(open(sys.argv[1]).readline())
+for key in sys.argv[2].split("."): run = run[int(key) if key.isdigit() else key]
+print(run)' "$1" "$2"
+}
