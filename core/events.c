@@ -390,6 +390,9 @@ static const double TOGETHER = 4e-15;
 /* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
 static const double NOTHING = 1e-6;
 
+/* The part of a g's size that is the rounding of a state on its surface. */
+static const double ROUNDOFF = 1e-12;
+
 /* Returns true if the g of rest->event, which has no value at the end, is 0 just before this place. */
 static bool ends_at_0(struct rest *rest, double place)
 {
@@ -465,8 +468,8 @@ static bool is_caused(const struct rest *rest, size_t event)
     const struct gm_event_step *step = rest->step;
     const double g = rest->values[event], after = rest->new_values[event], size = rest->sizes[event],
                  nothing = NOTHING * fabs(after - g);
-    const bool begins =
-        step->first && rest->t == step->t && rest->place < SHORTEST && rest->at_low[event] != 0;
+    const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST &&
+                        rest->at_low[event] != 0 && fabs(rest->at_low[event]) <= ROUNDOFF * size;
     if (!is_watched(step, event) || begins) {
         return false;
     }
@@ -559,12 +562,11 @@ static void wait_after(struct rest *rest, size_t event)
 {
     const struct gm_event_step *step = rest->step;
     const size_t written = step->problem->events->written, count = step->problem->events->count;
-    const double roundoff = 1e-12;
     for (size_t i = 0; i < count; i++) {
         const double g = rest->values[i], after = rest->new_values[i], size = rest->sizes[i];
         double *cause = &rest->causes[i];
         if (i == event && i < written) { /* a g that jumps is not 0 just beyond */
-            wait_beyond(rest, i, after, fmin(fabs(g), NOTHING * size) + roundoff * size);
+            wait_beyond(rest, i, after, fmin(fabs(g), NOTHING * size) + ROUNDOFF * size);
         } else if (i >= written && after != g) {
             rest->places[i] = *cause = NAN;
         } else if (event < written && after != g && !(*cause >= 0)) {

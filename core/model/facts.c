@@ -960,19 +960,32 @@ static const gm_node_id *parts_of_equations(struct gm_arena *arena, const struct
     return gm_arena_keep(arena, gm_formula_parts_of(&system->graph, roots, count, part_count), free);
 }
 
+/* True for a jump or a corner that no break stands for, so that schemes step across it: of atan2, or of a square's root. */
+static bool is_stepped_across(const struct gm_formula *graph, gm_node_id part)
+{
+    const struct gm_node node = graph->nodes[part], under = graph->nodes[node.a];
+    return node.operation == GM_OPERATION_ATAN2 ||
+           (node.operation == GM_OPERATION_SQRT &&
+            ((under.operation == GM_OPERATION_WHOLE_POWER && fmod(graph->nodes[under.b].value, 2) == 0) ||
+             (under.operation == GM_OPERATION_MULTIPLY && under.a == under.b)));
+}
+
 /* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
 static void find_of_parts(const struct search *search)
 {
     struct gm_user_system *system = search->system;
     size_t count = 0;
-    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE;
+    gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, across = GM_NO_NODE;
     const gm_node_id *parts = parts_of_equations(system->arena, system, &count);
     const bool *switches = gm_breaks_switches(system->arena, system);
     for (size_t k = count; k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         rough = switches[parts[k]] ? parts[k] : rough;
+        across =
+            node->operation > GM_VARIABLE && is_stepped_across(&system->graph, parts[k]) ? parts[k] : across;
         time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
+    search->findings[GM_FACT_SMOOTH].term = across;
     deny_by(system, &search->findings[GM_FACT_SMOOTH], rough, system->rates);
     deny_by(system, &search->findings[GM_FACT_AUTONOMOUS], time, system->rates);
 }
@@ -1097,7 +1110,7 @@ static void write_term(const struct gm_user_system *system, gm_node_id term, boo
     naming.part = NULL; /* written out, without names, to show its contents */
     char place[80], *text = gm_formula_text(&system->graph, term, &naming);
     write_place(system, term, derived, place, sizeof place);
-    fprintf(out, "%s%s ", text ? text : "a long term", place);
+    fprintf(out, "%s%s", text ? text : "a long term", place);
     free(text);
 }
 
@@ -1111,10 +1124,15 @@ static void write_reason(struct gm_arena *arena, void *data)
     if (finding->holds) {
         fprintf(out, "%s%s", rows[reason->fact].yes,
                 finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
+        if (reason->fact == GM_FACT_SMOOTH && finding->term != GM_NO_NODE) {
+            fputs(" but one, across which schemes step: ", out);
+            write_term(system, finding->term, false, out);
+        }
         return;
     }
     if (finding->term != GM_NO_NODE) {
         write_term(system, finding->term, in_rate && system->kind != GM_RATES, out);
+        fputc(' ', out);
     }
     fprintf(out, "%s%s%s", finding->why ? finding->why : rows[reason->fact].no,
             in_rate ? ", in the rate of " : "", in_rate ? system->variables[finding->component].name : "");

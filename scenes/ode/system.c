@@ -701,7 +701,7 @@ static void make(struct gm_system_making *making)
     gm_ode_ask(arena, &system_scene->scene, gm_ode_asked + skipped,
                GM_ODE_ASKED - skipped - (system_scene->hook ? 1 : 0) +
                    (system->kind <= GM_LAGRANGIAN ? GM_RING_OBSERVABLES : 0),
-               making->problem.n);
+               making->problem.n - (system->n - gm_system_motion(system)));
     system_scene->scene.asked_shown = skipped ? NULL : gm_modified_shown;
     for (size_t i = 0; i < system->choices.count; i++) {
         const char *key = system->choices.list[i].name;

@@ -37,6 +37,15 @@ with zipfile.ZipFile(sys.argv[1]) as tracks:
 assert [round(t / math.pi, 9) for t in times] in ([1, 2, 3], [2], [1, 3]), times
 END
 done
+# what begins near a surface, but not on it, passes it, however long the first step is
+printf 'components: y v\nrate: y = v, v = 0\nevent: bounce; y = 0, v < 0; v = -v\nstart: y = 1, v = -1\nuntil: 3\n' >near.system
+sed 's/event: .*/stop: y/' near.system >ends.system
+for y in 1e-7 5e-8 1e-9; do
+    "$geomint" run near.system y=$y dt=0.1 scheme=rk4 --json --state >out || fail "near a surface, $y"
+    python3 -c 'import json, sys; end = json.load(open("out")); assert end["observables"]["events"] == 1 and abs(end["state"][0] - 3 + float(sys.argv[1])) < 1e-9, end' $y || fail "near a surface, $y: $(cat out)"
+    "$geomint" run ends.system y=$y dt=0.1 scheme=rk4 --json >out || fail "near an end, $y"
+    python3 -c 'import json, sys; end = json.load(open("out")); assert end["stopped"] and abs(end["t"] - float(sys.argv[1])) < 1e-12, end' $y || fail "near an end, $y: $(cat out)"
+done
 # gone on with from a checkpoint, a run stops where the undisturbed one does
 for start in 'q = 0, p = 1' 'q = 1e-17, p = -1'; do
     printf 'coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: %s\nstop: q\ndt: 0.01\n' "$start" >on.system

@@ -40,6 +40,30 @@ status 0 run ./wall.system scheme=gauss8 dt=.05 until=5 --measure lyapunov_spect
 holds 'near(o["divergence_mean"], 6*math.log(.9)/5, 1e-10) and near(o["lyapunov_sum"], 6*math.log(.9)/5, 1e-10)'
 status 0 run system 'rate=x = 2 - sign(x)' x=-1 scheme=rk4 dt=.1 until=10 --measure lyapunov_spectrum --json
 holds 'near(o["divergence_mean"], -math.log(3)/10, 1e-12) and near(o["lyapunov_sum"], -math.log(3)/10, 1e-12)'
+# the error of a scheme shows also where an event that adds to a speed, or a break, interrupts its steps: the divergence is
+# -0.3, and the determinant of a step of explicit Euler with dt = 1 is 1.7
+printf 'rate: x = v, v = -x - 0.3*v\nevent: mod(t, 1) = 0.5; v = v + 1\nstart: x = 1, v = 0\n' >kick.system
+status 0 run ./kick.system scheme=explicit-euler dt=1 until=10 --measure lyapunov_spectrum,log_volume,volume_error --json
+holds 'near(o["divergence_mean"], -.3, 1e-12) and near(o["volume_error"], math.exp(o["log_volume"] + 3) - 1, 1e-9)'
+holds 'near(o["log_volume"], 10*math.log(1.21), 1e-9)'
+status 0 run system 'rate=x = v, v = -x - 0.3*v + 0.2*sign(x)' x=1 v=0 scheme=rk2 dt=1 until=12 --measure lyapunov_spectrum,log_volume,volume_error --json
+holds 'near(o["divergence_mean"], -.3, 1e-12) and near(o["volume_error"], math.exp(o["log_volume"] + 3.6) - 1, 1e-9)'
+# tangents of a file are no components of the motion, also through events; twice as many would grow twice as fast
+sed 's/^start/tangents: 2\nstart/' wall.system >carried.system
+status 0 run ./carried.system scheme=gauss8 dt=.05 until=5 --measure lyapunov_spectrum,lyapunov --json
+holds 'near(o["lyapunov_sum"], 6*math.log(.9)/5, 1e-10) and near(o["lyapunov1"] + o["lyapunov2"], o["lyapunov_sum"], 1e-10)'
+holds '"lyapunov3" not in o'
+saddle='coordinates: q\nH: p_q^2/2 - q^2/2 - q^4/4\nstart: q = 1e-3, p_q = 1e-3\n'
+printf "$saddle" >saddle.system
+printf "${saddle}tangents: 2\n" >tangents.system
+status 0 run ./saddle.system scheme=rk4 dt=.01 until=6 --measure lyapunov --json
+cp out alone
+status 0 run ./tangents.system scheme=rk4 dt=.01 until=6 --measure lyapunov --json
+python3 -c '
+import json
+alone, carried = (json.load(open(name))["observables"]["lyapunov"] for name in ("alone", "out"))
+assert alone == carried and abs(alone - 1) < .2, (alone, carried)
+' || fail "an exponent beside tangents: $(cat out)"
 # a symplectic map: the sum is 0, and exponents come in pairs
 status 0 run henon-heiles energy=1/8 q2=-.25 p2=0 scheme=verlet until=5000 --measure lyapunov_spectrum --json
 holds 'near(o["lyapunov_sum"], 0, 1e-9) and near(o["lyapunov1"] + o["lyapunov4"], 0, .004) and o["lyapunov1"] > .02'
@@ -63,6 +87,12 @@ assert len(rows) == 2 and all(abs(float(r["v"]) - math.sqrt(float(r["c"]) / (1 -
 # ---- periodic orbits of a flow ----
 
 # a start that does not return leads to a cycle that attracts
+# a ball that conserves its energy returns after a bounce, however long a step is beside it: 2 sqrt(2 y0/g)
+printf 'parameter: y0 = 1\nrate: y = v, v = -9.8\nevent: y = 0, v < 0; v = -v\nstart: y = y0, v = 0\n' >bounces.system
+for height in 1 .01 1e-4 1e-6 1e-9; do
+    status 0 orbit ./bounces.system y0=$height --json
+    holds "near(d['period'] / (2*math.sqrt(2*$height/9.8)), 1, 1e-9)"
+done
 status 0 orbit clock --json
 holds 'near(d["period"], 6.291054045776003, 1e-11) and near(d["multipliers"][1][0], 0.5330684683745183, 1e-9)'
 # a motion that only decays is no orbit; an event that changes the energy leaves one multiplier of 1: a ball whose speed p

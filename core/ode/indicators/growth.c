@@ -29,11 +29,8 @@ struct gm_growth {
     double *v; /* the vectors, orthonormal in their n first numbers */
     size_t vectors;
     bool failed;
-    double *logarithms;  /* the sums of all vectors, if they are n */
-    double *jacobian;    /* n * n */
-    struct gm_run *half; /* makes steps of half the length */
-    double divergence;
-    struct sums sums; /* of the first vector */
+    double *logarithms; /* the sums of all vectors, if they are n; then n * n numbers of scratch */
+    struct sums sums;   /* of the first vector */
     /* the sums after 0, every, 2 every ... steps; when all are full every other one goes */
     struct sums records[RECORDS];
     size_t recorded;
@@ -89,7 +86,6 @@ void gm_growth_close(struct gm_growth *growth)
     }
     free(growth->v);
     free(growth->logarithms);
-    gm_run_close(growth->half);
     gm_tangent_close(growth->tangent);
     gm_run_close(growth->run);
     free(growth);
@@ -174,36 +170,22 @@ static double orthonormalise(const struct gm_growth *growth)
 
 bool gm_growth_follow_all(struct gm_growth *growth)
 {
-    const struct gm_run *run = growth->run;
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
     double *v = calloc(n * size, sizeof *v);
     growth->logarithms = calloc(n + n * n, sizeof *growth->logarithms);
-    growth->half =
-        gm_run_open(&growth->problem, run->scheme, &run->settings, run->t0, run->dt / 2, gm_run_state(run));
-    if (!v || !growth->logarithms || !growth->half) {
+    if (!v || !growth->logarithms) {
         free(v);
         return false;
     }
     free(growth->v);
     growth->v = v;
     growth->vectors = n;
-    growth->jacobian = growth->logarithms + n;
+    gm_tangent_follow_volume(growth->tangent, growth->logarithms + n);
     for (size_t k = 0; k < n; k++) {
         v[k * size + k] = gm_tangent_units(growth->tangent)[k];
         growth->failed = growth->failed || !gm_tangent_begin(growth->tangent, v + k * size);
     }
     return true;
-}
-
-static double divergence_at(const struct gm_growth *growth, const struct gm_run *run)
-{
-    const size_t n = growth->problem.n;
-    const bool known = gm_jacobian(&growth->problem, gm_run_state(run), growth->jacobian);
-    double sum = 0;
-    for (size_t c = 0; c < n; c++) {
-        sum += growth->jacobian[c * n + c];
-    }
-    return known ? sum : NAN;
 }
 
 static double log_volume_of(const struct gm_growth *growth)
@@ -215,34 +197,11 @@ static double log_volume_of(const struct gm_growth *growth)
     return sum;
 }
 
-/* The number of times that events and breaks happened. */
-static double happened(const struct gm_growth *growth)
-{
-    const struct gm_events *events = growth->problem.events;
-    double sum = 0;
-    for (size_t i = 0; events && i < events->count; i++) {
-        sum += gm_events_happened(&growth->problem, gm_run_events(growth->run), i);
-    }
-    return sum;
-}
-
 /* Makes a step with all vectors, and fills what it made of the first one. Returns the number of steps made. */
 static size_t step_all(struct gm_growth *growth, struct gm_stretch *made)
 {
-    struct gm_run *run = growth->run;
-    *made = (struct gm_stretch){.length = NAN};
-    const double t = run->t, before = divergence_at(growth, run), volume = log_volume_of(growth),
-                 events = happened(growth);
-    gm_run_set_state(growth->half, gm_run_state(run), NULL);
-    const double middle =
-        gm_run_advance(growth->half, 1) == GM_OK ? divergence_at(growth, growth->half) : NAN;
     const bool stepped = gm_tangent_step(growth->tangent, growth->v, growth->vectors);
-    *made = (struct gm_stretch){run->t, orthonormalise(growth)};
-    const double grown = log_volume_of(growth);
-    growth->divergence += happened(growth) == events
-                              ? (run->t - t) / 6 * (before + 4 * middle + divergence_at(growth, run))
-                          : grown == volume ? 0 /* a volume of 0 stays */
-                                            : grown - volume;
+    *made = (struct gm_stretch){growth->run->t, orthonormalise(growth)};
     return stepped;
 }
 
@@ -287,7 +246,7 @@ struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
         .exponent_change = exponent - half->growth / half->time,
         .megno_change = megno - half->average / half->time,
         .log_volume = log_volume_of(growth),
-        .divergence = growth->divergence,
+        .divergence = gm_tangent_volume(growth->tangent),
         .time = now->time,
     };
 }

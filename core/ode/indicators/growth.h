@@ -17,11 +17,9 @@ struct gm_growth;
    182 (2003) 151; G. Benettin, L. Galgani & J.-M. Strelcyn, Phys. Rev. A 14 (1976) 2338.
    With all vectors also:
        log_volume   ln |det D y_t/D y_0| of the scheme's map
-       divergence   the integral of div f along its solution, NaN without a Jacobian, and ln |det S| of events and
-                    breaks (core/events.h): of a step that they interrupt it is ln |det| of the scheme's map
-   The determinant is a product over the steps, each of the lengths that make the moved vectors orthonormal again; the
-   integral is by Simpson's rule with the state after half a step of the scheme. G. Benettin, L. Galgani, A. Giorgilli &
-   J.-M. Strelcyn, Meccanica 15 (1980) 9. */
+       divergence   the same of the exact motion along its solution (gm_tangent_volume)
+   The determinant is a product over the steps, each of the lengths that make the moved vectors orthonormal again.
+   G. Benettin, L. Galgani, A. Giorgilli & J.-M. Strelcyn, Meccanica 15 (1980) 9. */
 struct gm_growth_values {
     double exponent, megno;
     double exponent_change,

@@ -173,7 +173,9 @@ static bool correct(struct search *search, double residual)
     for (double factor = 1; factor >= least; factor /= 2) {
         const double period = orbit->period + (orbit->free ? factor * search->change[search->n] : 0);
         for (size_t c = 0; c < search->n; c++) {
-            search->trial[c] = orbit->start[c] + factor * search->change[c];
+            const double change = factor * search->change[c];
+            const bool is_rounding = c == orbit->held && fabs(change) <= 4 * GM_EPSILON * largest_of(search);
+            search->trial[c] = orbit->start[c] + (is_rounding ? 0 : change);
         }
         if (period > search->guess / 2 && period < 2 * search->guess &&
             follow(search, search->trial, period, false) < residual) {
@@ -274,7 +276,7 @@ static void shorten(struct search *search)
         if (follow(search, orbit->start, period, false) <= most) {
             orbit->period = search->guess = period;
             iterate(search);
-            return;
+            turns = MOST_TURNS + 1;
         }
     }
 }
@@ -380,7 +382,14 @@ struct returning {
     struct gm_periodic *orbit;
     double dt, time; /* NAN: no return */
     int64_t steps;
+    bool crowded; /* with more than an event in four steps: others may be within one */
 };
+
+static bool is_crowded(const struct gm_run *run)
+{
+    return run->problem->events &&
+           gm_events_happened(run->problem, gm_run_events(run), SIZE_MAX) > 1 + (double)run->steps / 4;
+}
 
 static void return_once(struct gm_arena *arena, void *data)
 {
@@ -390,7 +399,10 @@ static void return_once(struct gm_arena *arena, void *data)
     double *normal = gm_arena_take(arena, n, sizeof *normal), before = 0, farthest = 0;
     struct gm_run *run = open_run(orbit, arena, orbit->start, returning->dt);
     gm_field(orbit->problem, orbit->start, normal, 1);
-    for (int64_t i = 1; i <= returning->steps && gm_run_advance(run, 1) == GM_OK; i++) {
+    returning->time = NAN;
+    for (int64_t i = 1; i <= returning->steps && isnan(returning->time) && !is_crowded(run) &&
+                        gm_run_advance(run, 1) == GM_OK;
+         i++) {
         double beyond = 0, square = 0;
         for (size_t c = 0; c < n; c++) {
             const double away = difference(orbit->problem, c, gm_run_state(run)[c], orbit->start[c]);
@@ -398,21 +410,26 @@ static void return_once(struct gm_arena *arena, void *data)
             square += away * away;
         }
         farthest = fmax(farthest, square);
-        if (before < 0 && beyond >= 0 && square < farthest / 4) {
-            returning->time = returning->dt * ((double)i - beyond / (beyond - before));
-            return;
-        }
+        returning->time = before < 0 && beyond >= 0 && square < farthest / 4
+                              ? returning->dt * ((double)i - beyond / (beyond - before))
+                              : NAN;
         before = beyond;
     }
-    if (run->status == GM_OK) {
+    returning->crowded = is_crowded(run);
+    if (isnan(returning->time) && !is_crowded(run) && run->status == GM_OK) {
         memcpy(orbit->start, gm_run_state(run), n * sizeof *normal);
     }
 }
 
 double gm_first_return(struct gm_periodic *orbit, double dt, int64_t steps)
 {
-    struct returning returning = {orbit, dt, NAN, steps};
-    gm_arena_run_once(return_once, &returning);
+    enum { MOST_SHORTER = 12 };
+    struct returning returning = {orbit, dt, NAN, steps, true};
+    for (int i = 0; i < MOST_SHORTER && returning.crowded; i++) {
+        returning.crowded = false; /* if memory is short */
+        gm_arena_run_once(return_once, &returning);
+        returning.dt /= 16;
+    }
     return returning.time;
 }
 

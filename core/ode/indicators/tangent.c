@@ -13,6 +13,8 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "core/functions/functions.h"
+#include "core/linear/iteration.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/theory.h"
@@ -42,6 +44,8 @@ struct gm_tangent {
     double *kicked, *kick; /* n; n + n * n: the last stage's state, k and Jacobian, if it was a kick */
     double *before, *plus, *minus, *slope, *far_slope; /* n + memory each */
     double *v;                                         /* the vectors, while a step is made */
+    double *square;                                    /* n * n; NULL: volumes are not followed */
+    double volume;                                     /* ln |det| of the exact motion so far */
     size_t count;
     double t;       /* where its next part begins; `before` is the state there */
     size_t events;  /* events of the step so far */
@@ -549,13 +553,78 @@ static bool is_there(const struct gm_tangent *tangent, const double *y)
     return difference <= close * size;
 }
 
-/* Each of the vectors := the derivative of a step or part of length h from `before` to y, times it. */
-static bool carry(struct gm_tangent *tangent, double h, const double *y)
+/* ---- volumes ---- */
+
+void gm_tangent_follow_volume(struct gm_tangent *tangent, double *square)
+{
+    tangent->square = square;
+    tangent->volume = 0;
+}
+
+double gm_tangent_volume(const struct gm_tangent *tangent)
+{
+    return tangent->volume;
+}
+
+/* Returns NaN if it is not known. */
+static double divergence_at(const struct gm_tangent *tangent, const double *y)
+{
+    const size_t n = tangent->n;
+    const bool known = gm_jacobian(tangent->motion, y, tangent->square);
+    double sum = 0;
+    for (size_t c = 0; c < n; c++) {
+        sum += tangent->square[c * n + c];
+    }
+    return known ? sum : NAN;
+}
+
+/* Adds the integral of the divergence over a step or part from `before` to y, which takes this time. */
+static void integrate(struct gm_tangent *tangent, double time, const double *y)
+{
+    const double begin = divergence_at(tangent, tangent->before);
+    double middle = NAN;
+    tangent->probe = tangent->probe ? tangent->probe : open_run(tangent, tangent->before);
+    if (tangent->probe) {
+        gm_run_set_step(tangent->probe, tangent->h / 2);
+        gm_run_set_state(tangent->probe, tangent->before, NULL);
+        middle = gm_run_advance(tangent->probe, 1) == GM_OK
+                     ? divergence_at(tangent, gm_run_state(tangent->probe))
+                     : NAN;
+    }
+    tangent->volume += time / 6 * (begin + 4 * middle + divergence_at(tangent, y));
+}
+
+/* Adds ln |det S|. */
+static void jump(struct gm_tangent *tangent, const struct gm_event_part *part)
+{
+    const size_t n = tangent->n;
+    const struct gm_problem *problem = tangent->run->problem;
+    double *column = tangent->plus;
+    bool carried = true;
+    for (size_t k = 0; k < n && carried; k++) {
+        memset(column, 0, gm_tangent_size(tangent) * sizeof *column);
+        column[k] = 1;
+        carried = problem->events->carry(problem, part, column);
+        memcpy(tangent->square + k * n, column, n * sizeof *column);
+    }
+    const bool regular = gm_eliminate_columns(n, tangent->square, 0, NULL);
+    for (size_t k = 0; k < n && regular; k++) {
+        tangent->volume += gm_log(fabs(tangent->square[k * n + k]));
+    }
+    tangent->volume -= regular ? 0 : INFINITY;
+}
+
+/* Each of the vectors := the derivative of a step or part of length h from `before` to y, times it; the time that it
+   takes may be another one, of a scheme that chooses it. */
+static bool carry(struct gm_tangent *tangent, double h, double time, const double *y)
 {
     const size_t size = gm_tangent_size(tangent);
     bool staged = tangent->stages > 0, found = true;
     double *v = tangent->v;
     tangent->h = h;
+    if (tangent->square) {
+        integrate(tangent, time, y);
+    }
     for (size_t k = 0; k < tangent->count && found; k++, v += size) {
         tangent->again = k > 0;
         staged = staged && by_stages(tangent, v) && is_there(tangent, y);
@@ -575,12 +644,15 @@ static void see_event(void *data, const struct gm_event_part *part)
     struct gm_tangent *tangent = data;
     const struct gm_problem *problem = tangent->run->problem;
     const size_t n = tangent->n, size = gm_tangent_size(tangent);
-    const double t = part->before[n];
+    const double t = part->before[n], h = t - tangent->t;
     tangent->events++;
     take(tangent, part->ahead);
-    tangent->broken = tangent->broken || (t != tangent->t && !carry(tangent, t - tangent->t, part->before));
+    tangent->broken = tangent->broken || (h != 0 && !carry(tangent, h, h, part->before));
     for (size_t k = 0; k < tangent->count && !tangent->broken; k++) {
         tangent->grazes = tangent->broken = !problem->events->carry(problem, part, tangent->v + k * size);
+    }
+    if (tangent->square && !tangent->broken) {
+        jump(tangent, part);
     }
     take(tangent, part->beyond);
     memcpy(tangent->before, part->after, n * sizeof *tangent->before);
@@ -606,8 +678,8 @@ bool gm_tangent_step(struct gm_tangent *tangent, double *v, size_t count)
     if (!good || tangent->broken) {
         return false;
     }
-    const double h = tangent->events > 0 ? run->t - tangent->t : run->dt;
-    return h == 0 || carry(tangent, h, gm_run_state(run));
+    const double time = run->t - tangent->t, h = tangent->events > 0 ? time : run->dt;
+    return h == 0 || carry(tangent, h, time, gm_run_state(run));
 }
 
 bool gm_tangent_grazes(const struct gm_tangent *tangent)

@@ -36,6 +36,13 @@ bool gm_tangent_begin(struct gm_tangent *tangent, double *v);
    holds the reason if its own step failed. */
 bool gm_tangent_step(struct gm_tangent *tangent, double *v, size_t count);
 
+/* From here on steps also follow ln |det| of the exact motion along the run: the integral of div f over their parts, by
+   Simpson's rule with the state after half of the scheme's step, and ln |det S| of events and breaks (core/events.h).
+   `square` is the caller's, n * n numbers of scratch. */
+void gm_tangent_follow_volume(struct gm_tangent *tangent, double *square);
+/* Returns it; NaN if the problem has no Jacobian. */
+double gm_tangent_volume(const struct gm_tangent *tangent);
+
 /* Returns true if a step failed since the motion only touched the surface of an event. */
 bool gm_tangent_grazes(const struct gm_tangent *tangent);
 

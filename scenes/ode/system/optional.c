@@ -18,6 +18,8 @@
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/ode.h"
+#include "core/ode/user/problem.h"
 #include "core/ode/variational/action.h"
 #include "scenes/common/graph.h"
 #include "scenes/common/system/look.h"
@@ -164,7 +166,9 @@ static const char *why_no_escape(const struct gm_view *view)
 /* ---- growth ---- */
 
 struct followed {
-    const struct gm_scheme *scheme; /* the lane may change it */
+    const struct gm_scheme *scheme;      /* the lane may change it */
+    struct gm_arena *arena;              /* of the motion */
+    const struct gm_user_motion *motion; /* without the tangents of a file; NULL: it has none */
     struct gm_growth *growth;
     const char *why; /* the reason that there are no values; NULL: there are */
 };
@@ -173,6 +177,7 @@ static void forget(void *data)
 {
     struct followed *followed = data;
     gm_growth_close(followed->growth);
+    gm_arena_close(followed->arena);
     free(followed);
 }
 
@@ -185,6 +190,29 @@ static double *last_of(const struct gm_view *view, const double *state)
         gm_member_take(state, last, n, m, m - 1);
     }
     return last;
+}
+
+/* The same without tangents. */
+static double *motion_of(const struct gm_view *view, const struct followed *followed, const double *state)
+{
+    const struct gm_user_motion *motion = followed->motion;
+    double *last = last_of(view, state);
+    for (size_t c = 0; last && motion && c < motion->problem.n; c++) {
+        last[c] = last[gm_system_component(motion->whole, c, 0)];
+    }
+    return last;
+}
+
+struct alone {
+    const struct gm_problem *problem;
+    struct followed *followed;
+};
+
+/* The body of an arena: takes the motion alone, for the exponents of tangents of tangents are others. */
+static void take_motion(struct gm_arena *arena, void *data)
+{
+    const struct alone *alone = data;
+    alone->followed->motion = gm_user_problem_motion(arena, alone->problem);
 }
 
 static const char *why_none(const struct gm_view *view, size_t kind)
@@ -213,10 +241,17 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
     }
     followed->scheme = view->scheme;
     followed->why = why_none(view, kind);
-    double *start = followed->why ? NULL : last_of(view, view->start);
+    struct alone alone = {view->problem, followed};
+    bool known = !gm_ode_of(view->problem)->written;
+    if (!known) {
+        followed->arena = gm_arena_made(take_motion, &alone);
+        known = followed->arena != NULL;
+    }
+    const struct gm_user_motion *motion = followed->motion;
+    double *start = followed->why || !known ? NULL : motion_of(view, followed, view->start);
     if (start) {
-        followed->growth =
-            gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt, start);
+        followed->growth = gm_growth_open(motion ? &motion->problem : view->problem, view->scheme,
+                                          &view->run->settings, view->t0, view->dt, start);
     }
     if (kind == GM_WORKED_VOLUME && followed->growth && !gm_growth_follow_all(followed->growth)) {
         gm_growth_close(followed->growth);
@@ -226,13 +261,14 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
     return followed;
 }
 
-/* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its
-   run. */
+/* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its run. Of a lane
+   that carries tangents, which may be iterated with the motion, the last bits are its own: it is not compared. */
 static bool is_same(const struct gm_view *view, const struct followed *followed)
 {
     const struct gm_run *run = gm_growth_run(followed->growth);
-    double *last = last_of(view, view->state);
-    const bool same = last && memcmp(gm_run_state(run), last, run->problem->n * sizeof *last) == 0;
+    double *last = motion_of(view, followed, view->state);
+    const bool same =
+        last && (followed->motion || memcmp(gm_run_state(run), last, run->problem->n * sizeof *last) == 0);
     free(last);
     return same;
 }
