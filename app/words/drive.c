@@ -263,8 +263,7 @@ static void tell_unsolved(const struct gm_run *run, char *text, size_t size)
     const char *const name = run->scheme->name;
     if (run->unsolved.obstacle == GM_STAYS_OFF && holding && farthest < holding->count) {
         snprintf(change, sizeof change,
-                 isfinite(run->unsolved.change) ? "it stays off by %.2g of its scale"
-                                                : "the iteration leaves the numbers",
+                 run->unsolved.change <= 1 ? "it stays off by %.2g of its scale" : "the iteration diverges",
                  run->unsolved.change);
         snprintf(
             text, size,

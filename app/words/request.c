@@ -166,8 +166,7 @@ static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec 
 
 bool gm_ends_exactly(const struct gm_scheme *scheme)
 {
-    return scheme && scheme->family->kind == &gm_kind_ode && !scheme->family->adaptive &&
-           !scheme->family->not_resumable;
+    return scheme && scheme->family->kind == &gm_kind_ode && !scheme->family->adaptive;
 }
 
 /* dt and until, or steps, to steps; with `steps` until follows. */

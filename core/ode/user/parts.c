@@ -256,7 +256,7 @@ static const char *parts_differ(struct gm_arena *arena, const struct gm_problem 
                ? gm_arena_print(
                      arena,
                      "parts that sum to the rates: the rate of %s has, beside %s, %s (%.6g at the start)",
-                     system->variables[wrong].name, sum, difference, at[shown])
+                     system->variables[wrong].name, sum, difference, at[shown] + 0)
                : gm_arena_print(arena, "parts that sum to H: %s is not H, H - %s = %s (%.6g at the start)",
                                 sum, sum_of(arena, names, count, " - "), difference, at[shown]);
 }

@@ -888,8 +888,8 @@ static struct own *make_holding(const struct making *making)
         holding->columns[holding->count] = making->source->title ? 0 : piece.begin + 1; /* 0: in a file */
         holding->names[holding->count++] = name;
     }
-    if (holding->count == 0) {
-        fail(making, named.begin, "the name of an invariant was expected: H, or one of the system");
+    if (holding->count == 0 || written->text[named.end - 1] == ',') {
+        fail(making, named.end, "the name of an invariant was expected: H, or one of the system");
     }
     holding->constraints = strcmp(holding->names[0], "constraints") == 0;
     holding->symmetric = symmetric->said && gm_span_is(written->text, symmetric->value, "yes");

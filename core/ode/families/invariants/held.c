@@ -94,7 +94,7 @@ double gm_held_distance(const struct gm_held *held, const double *values, double
     for (size_t j = 0; j < held->count; j++) {
         const double part = distance(held, values, j);
         off[j] = values[j] - held->values[j];
-        miss = part <= miss ? miss : part;
+        miss = part <= miss || isnan(miss) ? miss : part;
     }
     return miss;
 }

@@ -141,14 +141,20 @@ static void part_jacobian(const struct gm_problem *problem, const double *y, dou
     }
 }
 
+/* " (column 8)": where a word names the part that is opened; "" if no word does. */
+static const char *column_of(const struct work *work)
+{
+    return work->column > 0 ? gm_arena_print(work->arena, " (column %zu)", work->column) : "";
+}
+
 /* Opens a part that takes steps of a scheme, which may need a Jacobian and no other structure. */
 static void open_steps(struct work *work, struct part *part, const char *name, const gm_node_id *rates)
 {
     const size_t n = work->problem->n;
     const struct gm_scheme *by = part->by.scheme;
     if (!gm_scheme_composes(by) || by->needs & ~(unsigned)GM_NEEDS_JACOBIAN || n > GM_NEWTON_LARGEST) {
-        gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s",
-                        GM_NEWTON_LARGEST, name, by->name);
+        gm_arena_refuse(work->arena, "a scheme for any field, of at most %d components, not %s by %s%s",
+                        GM_NEWTON_LARGEST, name, by->name, column_of(work));
     }
     part->jacobian = gm_sparse_jacobian(work->arena, &work->graph, rates, n, NULL, n);
     const gm_node_id *slopes = gm_sparse_nodes(work->arena, NULL, 0, &part->jacobian);
@@ -168,12 +174,6 @@ static void open_steps(struct work *work, struct part *part, const char *name, c
 static const char *name_of(size_t i, const void *names)
 {
     return ((const char *const *)names)[i];
-}
-
-/* " (column 8)": where a word names the part that is opened; "" if no word does. */
-static const char *column_of(const struct work *work)
-{
-    return work->column > 0 ? gm_arena_print(work->arena, " (column %zu)", work->column) : "";
 }
 
 /* The names of all parts, or the nearest one, in words. */
