@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""States and pictures of the library in WebAssembly against the native one: same.py BUILD BUILD_WEB [FONTS].
-Each run of runs.txt must end in the same bits, and each picture have the same pixels as the program's own painter."""
+"""States and pictures of the library in WebAssembly against the native one: same.py BUILD BUILD_WEB [FONTS [time]].
+Each run of runs.txt must end in the same bits, and each picture have the same pixels as the program's own painter. With the
+word time it measures instead: how long runs take in node, and natively (of a build with -Dloops=baseline, which has no wider
+vectors than WebAssembly)."""
 import ctypes
 import hashlib
 import json
 import os
 import shlex
+import statistics
 import subprocess
 import sys
+import time
 
 build, web = sys.argv[1:3]
 fonts = sys.argv[3] if len(sys.argv) > 3 else "/usr/share/fonts/truetype/dejavu"
@@ -60,6 +64,25 @@ def in_wasm(lines, shape):
     answer = subprocess.run(command, input=text, capture_output=True, text=True, check=True)
     return [json.loads(line) for line in answer.stdout.splitlines()]
 
+
+def times(runs, rounds=5):
+    """Medians of the seconds of both, of rounds in turns, and their ratio."""
+    for words in map(shlex.split, runs):
+        native_times, wasm_times = [], []
+        for _ in range(rounds):
+            begun = time.perf_counter()
+            native(words, "")
+            native_times.append(time.perf_counter() - begun)
+            wasm_times += in_wasm([words], "time")
+        ours, wasm = statistics.median(native_times), statistics.median(wasm_times)
+        print(f"{shlex.join(words)}: {ours:.3f} s, in WebAssembly {wasm:.3f} s, {wasm / ours:.2f} times", flush=True)
+
+
+if sys.argv[4:] == ["time"]:
+    times(["kepler scheme=verlet steps=1e7", "kepler scheme=rk4 steps=5e6", "kepler scheme=gauss4 steps=1e6",
+           "disc scheme=verlet points=1e4 steps=1e4", "disc scheme=rk4 points=1e4 steps=3e3",
+           "system 'H=p^2/2 - cos(q)' q=1 p=0 scheme=verlet steps=3e6"])
+    sys.exit(0)
 
 jobs = {}  # lines of words by the size of their pictures, "" for states
 for line in open(folder + "/runs.txt", encoding="utf-8"):
