@@ -41,23 +41,18 @@ static struct gm_canvas *open_canvas(const struct drawing *drawing, char *messag
 static bool paint(struct drawing *drawing, char *message)
 {
     const struct gm_appearance *look = &drawing->look;
-    const size_t pixels = (size_t)look->width * (size_t)look->height;
     struct gm_canvas *canvas = open_canvas(drawing, message);
     if (!canvas) {
         return false;
     }
     struct gm_picture *picture = gm_picture_open();
     const unsigned long refusals = gm_memory_refusals();
-    const unsigned char *rgb = NULL;
+    bool painted = false;
     if (picture) {
         gm_lanes_draw(drawing->lanes, drawing->handle->request->count, picture);
-        rgb = gm_canvas_paint(canvas, picture, NULL);
+        painted = gm_canvas_paint_opaque(canvas, picture, drawing->rgba);
     }
-    const bool good = rgb && gm_memory_refusals() == refusals;
-    for (size_t i = 0; good && i < pixels; i++) {
-        memcpy(&drawing->rgba[4 * i], &rgb[3 * i], 3);
-        drawing->rgba[4 * i + 3] = 255;
-    }
+    const bool good = painted && gm_memory_refusals() == refusals;
     gm_picture_close(picture);
     if (!good || strcmp(gm_canvas_backend(canvas), "own") != 0) { /* a context of OpenGL is this thread's */
         gm_canvas_close(canvas);

@@ -22,14 +22,13 @@
 /* ---- the rasteriser: triangles in memory, by OpenGL's rules, without a library, a driver or a lock ---- */
 
 /* A triangle has the pixels whose middles lie in it, its corners are at multiples of 1/256 pixel, and pixels shared by
-   two triangles are painted once. A row of a triangle is a run of pixels, which get their coverages first, and then
-   their colours. Edges of two triangles with the same ends are computed from these in the same order, so that no pixel
-   between the two is left out. */
+   two triangles are painted once. Edges of two triangles with the same ends are computed from these in the same order, so
+   that no pixel between the two is left out. */
 
 enum {
     MAPS = 2,
     SHADES = 16 * 255 + 1, /* shades of a map */
-    RUN = 256,             /* most pixels at a time */
+    RUN = 256,             /* pixels of a run, along which values are summed in single precision */
     MOST_SIDE = 16384,
 };
 
@@ -51,9 +50,12 @@ struct target {
     int left, top, right, bottom; /* only these pixels may change */
 };
 
+/* Of what is done for each pixel, or for each row of a triangle, a call costs as much as the work. */
+#define INLINE static inline __attribute__((always_inline))
+
 /* ---- pixels: four bytes, in any order ---- */
 
-static uint32_t pixel_of(const uint8_t bytes[4])
+INLINE uint32_t pixel_of(const uint8_t bytes[4])
 {
     uint32_t pixel;
     memcpy(&pixel, bytes, sizeof pixel);
@@ -61,7 +63,7 @@ static uint32_t pixel_of(const uint8_t bytes[4])
 }
 
 /* Mixes two colours by alpha of 255, each byte rounded to the nearest. */
-static uint32_t mixed(uint32_t under, uint32_t over, uint32_t alpha)
+INLINE uint32_t mixed(uint32_t under, uint32_t over, uint32_t alpha)
 {
     const uint32_t pairs = 0x00ff00ff, half = 0x00800080;
     uint32_t even = (over & pairs) * alpha + (under & pairs) * (255 - alpha) + half;
@@ -78,6 +80,10 @@ struct corner {
     const struct gm_vertex *vertex;
 };
 
+struct slope {
+    double right, down; /* the change of a value per pixel */
+};
+
 struct plane {
     float start, right; /* the value at the first pixel of a run, and its change per pixel */
 };
@@ -89,6 +95,8 @@ struct planes {
 struct triangle {
     struct corner corner[3];
     double area; /* twice the area, with its sign */
+    bool sloped; /* the slopes are known: many a triangle has no pixel and needs none */
+    struct slope across, along, half, light;
 };
 
 /* Rounds to 1/256: a double this large has no digits below that. */
@@ -103,87 +111,95 @@ static struct corner corner_of(const struct gm_vertex *vertex)
     return (struct corner){snapped(vertex->x), snapped(vertex->y), vertex};
 }
 
-static struct plane plane_of(const struct triangle *triangle, float a, float b, float c, int x, int y)
+/* The slope of a value that is a, b and c at the corners. */
+static struct slope slope_across(const struct triangle *triangle, float a, float b, float c)
 {
     const struct corner *p = triangle->corner;
     const double first = (double)b - (double)a, second = (double)c - (double)a;
-    const double right = (first * (p[2].y - p[0].y) - second * (p[1].y - p[0].y)) / triangle->area;
-    const double down = (second * (p[1].x - p[0].x) - first * (p[2].x - p[0].x)) / triangle->area;
-    return (struct plane){(float)((double)a + right * (x - p[0].x) + down * (y - p[0].y)), (float)right};
+    return (struct slope){
+        .right = (first * (p[2].y - p[0].y) - second * (p[1].y - p[0].y)) / triangle->area,
+        .down = (second * (p[1].x - p[0].x) - first * (p[2].x - p[0].x)) / triangle->area,
+    };
 }
 
-static struct planes planes_of(const struct triangle *triangle, int x, int y)
+static void find_slopes(struct triangle *triangle)
 {
     const struct gm_vertex *a = triangle->corner[0].vertex, *b = triangle->corner[1].vertex,
                            *c = triangle->corner[2].vertex;
+    triangle->sloped = true;
+    triangle->across = slope_across(triangle, a->across, b->across, c->across);
+    triangle->along = slope_across(triangle, a->along, b->along, c->along);
+    triangle->half = slope_across(triangle, a->half, b->half, c->half);
+    triangle->light = slope_across(triangle, a->colour[1], b->colour[1], c->colour[1]);
+}
+
+INLINE struct plane plane_of(const struct triangle *triangle, struct slope slope, float a, int x, int y)
+{
+    const struct corner *p = triangle->corner;
+    return (struct plane){(float)((double)a + slope.right * (x - p->x) + slope.down * (y - p->y)),
+                          (float)slope.right};
+}
+
+INLINE struct planes planes_of(const struct triangle *triangle, int x, int y)
+{
+    const struct gm_vertex *a = triangle->corner->vertex;
     return (struct planes){
-        plane_of(triangle, a->across, b->across, c->across, x, y),
-        plane_of(triangle, a->along, b->along, c->along, x, y),
-        plane_of(triangle, a->half, b->half, c->half, x, y),
-        plane_of(triangle, a->colour[1], b->colour[1], c->colour[1], x, y),
+        plane_of(triangle, triangle->across, a->across, x, y),
+        plane_of(triangle, triangle->along, a->along, x, y),
+        plane_of(triangle, triangle->half, a->half, x, y),
+        plane_of(triangle, triangle->light, a->colour[1], x, y),
     };
 }
 
 /* ---- runs of pixels of one row ---- */
 
-/* Sets covers to alpha times the ink's coverage of each pixel. */
-static void cover(const struct planes *planes, int count, bool wholly, float alpha, uint8_t *covers)
+/* Returns alpha times the ink's coverage of a pixel of a run. */
+INLINE uint8_t cover(const struct planes *planes, int i, bool wholly, float alpha)
 {
-    for (int i = 0; i < count; i++) {
-        const float step = (float)i;
-        const float across = planes->across.start + step * planes->across.right;
-        const float along = planes->along.start + step * planes->along.right;
-        const float half = planes->half.start + step * planes->half.right;
-        const float covered = half + 0.5f - sqrtf(across * across + along * along);
-        const float part = covered < 1.0f ? (wholly || !(covered > 0.0f) ? 0.0f : covered) : 1.0f;
-        covers[i] = (uint8_t)(part * alpha + 0.5f);
-    }
+    const float step = (float)i;
+    const float across = planes->across.start + step * planes->across.right;
+    const float along = planes->along.start + step * planes->along.right;
+    const float half = planes->half.start + step * planes->half.right;
+    const float covered = half + 0.5f - sqrtf(across * across + along * along);
+    const float part = covered < 1.0f ? (wholly || !(covered > 0.0f) ? 0.0f : covered) : 1.0f;
+    return (uint8_t)(part * alpha + 0.5f);
 }
 
-static void cover_letters(const struct gm_atlas *atlas, const struct planes *planes, int count, float alpha,
-                          uint8_t *covers)
+INLINE uint8_t cover_of_letter(const struct gm_atlas *atlas, const struct planes *planes, int i, float alpha)
 {
-    for (int i = 0; i < count; i++) {
-        const int column = (int)(planes->across.start + (float)i * planes->across.right);
-        const int row = (int)(planes->along.start + (float)i * planes->along.right);
-        const bool within = column >= 0 && column < atlas->width && row >= 0 && row < atlas->height;
-        const float part = within ? atlas->pixels[(size_t)row * (size_t)atlas->width + (size_t)column] : 0.0f;
-        covers[i] = (uint8_t)(part * alpha / 255.0f + 0.5f);
-    }
+    const int column = (int)(planes->across.start + (float)i * planes->across.right);
+    const int row = (int)(planes->along.start + (float)i * planes->along.right);
+    const bool within = column >= 0 && column < atlas->width && row >= 0 && row < atlas->height;
+    const float part = within ? atlas->pixels[(size_t)row * (size_t)atlas->width + (size_t)column] : 0.0f;
+    return (uint8_t)(part * alpha / 255.0f + 0.5f);
 }
 
-/* Leaves out the pixels that the call's stencil keeps, and updates the stencil. */
-static void sift(const struct gm_draw_call *call, uint32_t *groups, int count, uint8_t *covers)
+/* Returns the coverage that the call's stencil leaves of a pixel, and updates the stencil. */
+INLINE uint8_t sifted(const struct gm_draw_call *call, uint32_t *group, uint8_t covered)
 {
-    for (int i = 0; i < count; i++) {
-        const uint32_t group = (uint32_t)call->once;
-        switch (call->stencil) {
-        case GM_STENCIL_ONCE:
-            covers[i] = (groups[i] & ~inside) == group ? 0 : covers[i];
-            groups[i] = covers[i] > 0 ? (groups[i] & inside) | group : groups[i];
-            break;
-        case GM_STENCIL_OUTSIDE:
-            covers[i] = groups[i] & inside ? 0 : covers[i];
-            break;
-        case GM_STENCIL_INSIDE:
-            covers[i] = groups[i] & inside ? covers[i] : 0;
-            groups[i] &= ~inside;
-            break;
-        case GM_STENCIL_INVERT:
-        case GM_STENCIL_NONE:
-            break;
-        }
+    const uint32_t own = (uint32_t)call->once, before = *group;
+    switch (call->stencil) {
+    case GM_STENCIL_ONCE:
+        covered = (before & ~inside) == own ? 0 : covered;
+        *group = covered > 0 ? (before & inside) | own : before;
+        return covered;
+    case GM_STENCIL_OUTSIDE:
+        return before & inside ? 0 : covered;
+    case GM_STENCIL_INSIDE:
+        *group = before & ~inside;
+        return before & inside ? covered : 0;
+    case GM_STENCIL_INVERT:
+    case GM_STENCIL_NONE:
+        break;
     }
+    return covered;
 }
 
-static void put_ink(unsigned char *rgba, uint32_t colour, const uint8_t *covers, int count)
+INLINE void put_ink(unsigned char *rgba, uint32_t colour, uint8_t covered)
 {
-    for (int i = 0; i < count; i++) {
-        if (covers[i] > 0) {
-            const uint32_t pixel =
-                covers[i] == 255 ? colour : mixed(pixel_of(rgba + 4 * i), colour, covers[i]);
-            memcpy(rgba + 4 * i, &pixel, sizeof pixel);
-        }
+    if (covered > 0) {
+        const uint32_t pixel = covered == 255 ? colour : mixed(pixel_of(rgba), colour, covered);
+        memcpy(rgba, &pixel, sizeof pixel);
     }
 }
 
@@ -212,7 +228,7 @@ static void put_field(const struct target *target, const struct planes *planes,
 }
 
 /* Draws at most RUN pixels of a row from x on. */
-static void put_run(const struct target *target, const struct triangle *triangle, int x, int y, int count)
+INLINE void put_run(const struct target *target, struct triangle *triangle, int x, int y, int count)
 {
     const struct gm_draw_call *call = target->call;
     const struct gm_vertex *vertex = triangle->corner[0].vertex;
@@ -224,33 +240,39 @@ static void put_run(const struct target *target, const struct triangle *triangle
         }
         return;
     }
-    uint8_t covers[RUN];
     unsigned char *rgba = target->rgba + 4 * place;
     const float alpha = vertex->colour[3];
+    const uint8_t bytes[4] = {vertex->colour[0], vertex->colour[1], vertex->colour[2], 255};
+    const uint32_t colour = pixel_of(bytes);
+    if (!triangle->sloped) {
+        find_slopes(triangle);
+    }
     const struct planes planes = planes_of(triangle, x, y);
-    switch (call->program) {
-    case GM_PROGRAM_INK:
-    case GM_PROGRAM_CORE:
-        cover(&planes, count, call->program == GM_PROGRAM_CORE, alpha, covers);
-        break;
-    case GM_PROGRAM_TEXT:
-        cover_letters(target->atlas, &planes, count, alpha, covers);
-        break;
-    default:
+    const bool is_ink = call->program == GM_PROGRAM_INK || call->program == GM_PROGRAM_CORE;
+    if (is_ink && call->stencil == GM_STENCIL_NONE) {
+        for (int i = 0; i < count; i++) {
+            put_ink(rgba + 4 * i, colour, cover(&planes, i, call->program == GM_PROGRAM_CORE, alpha));
+        }
+    } else if (is_ink) {
+        for (int i = 0; i < count; i++) {
+            put_ink(rgba + 4 * i, colour,
+                    sifted(call, &groups[i], cover(&planes, i, call->program == GM_PROGRAM_CORE, alpha)));
+        }
+    } else if (call->program == GM_PROGRAM_TEXT) {
+        for (int i = 0; i < count; i++) {
+            const uint8_t covered = cover_of_letter(target->atlas, &planes, i, alpha);
+            put_ink(rgba + 4 * i, colour,
+                    call->stencil == GM_STENCIL_NONE ? covered : sifted(call, &groups[i], covered));
+        }
+    } else {
         put_field(target, &planes, vertex, rgba, count);
-        return;
     }
-    if (call->stencil != GM_STENCIL_NONE) {
-        sift(call, groups, count, covers);
-    }
-    const uint8_t colour[4] = {vertex->colour[0], vertex->colour[1], vertex->colour[2], 255};
-    put_ink(rgba, pixel_of(colour), covers, count);
 }
 
 /* ---- triangles ---- */
 
 /* Returns the first whole number that is not below a place, clamped to low and high. */
-static int first_from(double place, int low, int high)
+INLINE int first_from(double place, int low, int high)
 {
     if (!(place > low)) {
         return low;
@@ -262,7 +284,7 @@ static int first_from(double place, int low, int high)
     return whole + (whole < place);
 }
 
-static double edge_at(const struct corner *from, double slope, int y)
+INLINE double edge_at(const struct corner *from, double slope, int y)
 {
     return from->x + slope * (y - from->y);
 }
@@ -567,19 +589,39 @@ static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t cou
     }
 }
 
-const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+/* Draws with fourth bytes of any value. */
+static bool draw(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgba)
 {
     struct gm_batch *batch = &canvas->brush.batch;
     gm_batch_clear(batch);
     if (!gm_page_draw(&canvas->painter, picture)) {
-        return NULL;
+        return false;
     }
     const struct gm_atlas atlas = gm_glyphs_atlas(canvas->painter.glyphs);
-    const bool drawn = canvas->opengl ? gm_opengl_draw(canvas->opengl, batch, &atlas, canvas->rgba)
-                                      : rasterise(&canvas->rasteriser, batch, &atlas, canvas->rgba);
+    return canvas->opengl ? gm_opengl_draw(canvas->opengl, batch, &atlas, rgba)
+                          : rasterise(&canvas->rasteriser, batch, &atlas, rgba);
+}
+
+const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
+    const struct gm_appearance *look = &canvas->painter.look;
+    if (!draw(canvas, picture, canvas->rgba)) {
+        return NULL;
+    }
     rgb = rgb ? rgb : canvas->rgba;
-    drop_alpha(canvas->rgba, rgb, (size_t)canvas->painter.look.width * (size_t)canvas->painter.look.height);
-    return drawn ? rgb : NULL;
+    drop_alpha(canvas->rgba, rgb, (size_t)look->width * (size_t)look->height);
+    return rgb;
+}
+
+bool gm_canvas_paint_opaque(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgba)
+{
+    const struct gm_appearance *look = &canvas->painter.look;
+    const size_t bytes = (size_t)look->width * (size_t)look->height * 4;
+    const bool drawn = draw(canvas, picture, rgba);
+    for (size_t i = 3; drawn && canvas->opengl && i < bytes; i += 4) { /* the rasteriser's are 255 */
+        rgba[i] = 255;
+    }
+    return drawn;
 }
 
 struct gm_spot gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,

@@ -31,6 +31,8 @@ void gm_canvas_close(struct gm_canvas *canvas);
    rows of width * 3 bytes, top row first. Returns them; NULL when out of memory. */
 const unsigned char *gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture,
                                      unsigned char *rgb);
+/* Paints the picture into rgba: the same pixels, each with a fourth byte of 255. Returns false when out of memory. */
+bool gm_canvas_paint_opaque(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgba);
 
 /* Returns the spot at a pixel. */
 struct gm_spot gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,

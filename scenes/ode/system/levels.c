@@ -131,8 +131,9 @@ static void fill_grid(const struct level *level, const struct gm_window *box, si
         level->row[(size_t)level->sight->components[0] * width + i] = corner(box, 0, i, cells);
     }
     for (size_t j = 0; j < width; j++) {
+        const double up = corner(box, 1, j, cells);
         for (size_t i = 0; i < width; i++) {
-            level->row[(size_t)level->sight->components[1] * width + i] = corner(box, 1, j, cells);
+            level->row[(size_t)level->sight->components[1] * width + i] = up;
         }
         gm_tape_values(level->tape, level->row, level->outputs, width);
         memcpy(level->corners + j * width, level->outputs, width * sizeof *level->corners);
@@ -229,16 +230,27 @@ void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, st
     const size_t width = cells[0] + 1, corners = width * (cells[1] + 1), count = cells[0] * cells[1];
     double *points = gm_picture_memory(picture, 2 * corners * sizeof *points);
     int *triangles = gm_picture_memory(picture, 6 * count * sizeof *triangles);
-    for (size_t k = 0; k < corners; k++) {
-        points[2 * k] = corner(&box, 0, k % width, cells[0]);
-        points[2 * k + 1] = corner(&box, 1, k / width, cells[1]);
-    }
+    size_t crossed = 0; /* cells whose corners are not all above 0, or all below */
     for (size_t cell = 0; cell < count; cell++) {
-        const int here = (int)(cell / cells[0] * width + cell % cells[0]), over = here + (int)width;
-        memcpy(triangles + 6 * cell, (const int[]){here, here + 1, over + 1, here, over + 1, over},
+        const size_t i = cell % cells[0], j = cell / cells[0];
+        const int here = (int)(j * width + i), over = here + (int)width,
+                  around[4] = {here, here + 1, over, over + 1};
+        int above = 0, below = 0;
+        for (int k = 0; k < 4; k++) {
+            above += values[around[k]] > 0;
+            below += values[around[k]] < 0;
+        }
+        if (above == 4 || below == 4) {
+            continue;
+        }
+        for (size_t k = 0; k < 4; k++) {
+            points[2 * around[k]] = corner(&box, 0, i + k % 2, cells[0]);
+            points[2 * around[k] + 1] = corner(&box, 1, j + k / 2, cells[1]);
+        }
+        memcpy(triangles + 6 * crossed++, (const int[]){here, here + 1, over + 1, here, over + 1, over},
                6 * sizeof *triangles);
     }
-    gm_mark_level_lines(picture, panel, style, points, values, corners, triangles, 2 * count, &zero, 1);
+    gm_mark_level_lines(picture, panel, style, points, values, corners, triangles, 2 * crossed, &zero, 1);
 }
 
 void gm_system_draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
