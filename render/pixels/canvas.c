@@ -50,7 +50,7 @@ struct target {
     int left, top, right, bottom; /* only these pixels may change */
 };
 
-/* Of what is done for each pixel, or for each row of a triangle, a call costs as much as the work. */
+/* These functions are so short, and are called so often, that a call would cost as much as their work. */
 #define INLINE static inline __attribute__((always_inline))
 
 /* ---- pixels: four bytes, in any order ---- */
