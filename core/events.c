@@ -303,6 +303,7 @@ struct rest {
     double *new_values;               /* g of all events after a change */
     double *modes;                    /* of switches before what happens */
     double *sizes;                    /* of the g of all events, at both ends of the step */
+    double *roundoffs;                /* of these g at the start of the run */
     double *places;                   /* the fraction of `rest` where each g passes; NaN: it does not */
     /* The number of the g whose passage lets an event happen here: its own, or that of a switch; `count`: it follows from
        another event. NaN: it does not happen; negative: it has. */
@@ -390,9 +391,6 @@ static const double TOGETHER = 4e-15;
 /* The part of a g's size that is 0, or that a smooth g changes by within the accuracy of the finder. */
 static const double NOTHING = 1e-6;
 
-/* The part of a g's size that is the rounding of a state on its surface. */
-static const double ROUNDOFF = 1e-12;
-
 /* Returns true if the g of rest->event, which has no value at the end, is 0 just before this place. */
 static bool ends_at_0(struct rest *rest, double place)
 {
@@ -469,7 +467,7 @@ static bool is_caused(const struct rest *rest, size_t event)
     const double g = rest->values[event], after = rest->new_values[event], size = rest->sizes[event],
                  nothing = NOTHING * fabs(after - g);
     const bool begins = step->first && rest->t == step->t && rest->place < SHORTEST &&
-                        rest->at_low[event] != 0 && fabs(rest->at_low[event]) <= ROUNDOFF * size;
+                        rest->at_low[event] != 0 && fabs(rest->at_low[event]) <= rest->roundoffs[event];
     if (!is_watched(step, event) || begins) {
         return false;
     }
@@ -562,11 +560,12 @@ static void wait_after(struct rest *rest, size_t event)
 {
     const struct gm_event_step *step = rest->step;
     const size_t written = step->problem->events->written, count = step->problem->events->count;
+    const double roundoff = 1e-12;
     for (size_t i = 0; i < count; i++) {
         const double g = rest->values[i], after = rest->new_values[i], size = rest->sizes[i];
         double *cause = &rest->causes[i];
         if (i == event && i < written) { /* a g that jumps is not 0 just beyond */
-            wait_beyond(rest, i, after, fmin(fabs(g), NOTHING * size) + ROUNDOFF * size);
+            wait_beyond(rest, i, after, fmin(fabs(g), NOTHING * size) + roundoff * size);
         } else if (i >= written && after != g) {
             rest->places[i] = *cause = NAN;
         } else if (event < written && after != g && !(*cause >= 0)) {
@@ -641,6 +640,28 @@ static enum gm_event_outcome change(struct rest *rest, size_t event)
     return GM_EVENTS_HAPPENED;
 }
 
+/* Finds how far the rounding of the state at the start of the run changes each g: one that is no larger is on its
+   surface. A component may be the difference of numbers as large as the largest. */
+static void find_roundoffs(struct rest *rest)
+{
+    const struct gm_event_step *step = rest->step;
+    const size_t n = step->problem->n, count = step->problem->events->count;
+    double *look = rest->look, largest = 0;
+    memset(rest->roundoffs, 0, count * sizeof *rest->roundoffs);
+    for (size_t c = 0; c <= n; c++) {
+        largest = fmax(largest, fabs(look[c]));
+    }
+    for (size_t c = 0; c <= n; c++) {
+        const double before = look[c];
+        look[c] += 16 * DBL_EPSILON * largest;
+        find_g(step, look, 1, rest->values);
+        look[c] = before;
+        for (size_t i = 0; i < count; i++) {
+            rest->roundoffs[i] += fabs(rest->values[i] - rest->at_low[i]);
+        }
+    }
+}
+
 /* Returns true if the intervals between events have become too short to end. */
 static bool are_too_short(struct gm_event_step *step, double t)
 {
@@ -709,7 +730,7 @@ static enum gm_event_outcome pass_first(struct rest *rest)
 size_t gm_events_scratch(const struct gm_problem *problem)
 {
     const size_t count = problem->events->count, together = GM_EVENTS_TOGETHER * (problem->n + 1 + count);
-    return together + 2 * (problem->n + 1) + 8 * count + 2 * problem->events->quantities;
+    return together + 2 * (problem->n + 1) + 9 * count + 2 * problem->events->quantities;
 }
 
 enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
@@ -718,8 +739,8 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     const struct gm_problem *problem = step->problem;
     const size_t count = problem->events->count, width = problem->n + 1;
     struct rest rest = {.step = step, .t = step->t, .rest = step->dt, .look = step->scratch};
-    double **const lists[] = {&rest.at_low, &rest.at_end, &rest.places, &rest.modes,
-                              &rest.sizes,  &rest.causes, &rest.values, &rest.new_values};
+    double **const lists[] = {&rest.at_low, &rest.at_end,    &rest.places, &rest.modes,     &rest.sizes,
+                              &rest.causes, &rest.roundoffs, &rest.values, &rest.new_values};
     rest.after = rest.look + width;
     for (size_t k = 0; k < GM_COUNT(lists); k++) {
         *lists[k] = rest.look + 2 * width + k * count;
@@ -729,6 +750,9 @@ enum gm_event_outcome gm_events_pass(struct gm_event_step *step)
     }
     find_values(&rest, step->end_time, step->end, rest.at_end);
     find_values(&rest, step->t, step->begin, rest.at_low);
+    if (step->first) {
+        find_roundoffs(&rest);
+    }
     for (size_t i = 0; i < count; i++) {
         rest.sizes[i] = fabs(rest.at_low[i]) + (isnan(rest.at_end[i]) ? 0 : fabs(rest.at_end[i]));
     }

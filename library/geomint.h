@@ -216,7 +216,7 @@ int geomint_theme(geomint *handle, const char *name);
    picture repeats the steps made so far in a copy of each lane. `scale` is the factor of letters and lines,
    from 1/4 to 4; 0 means 1. OSMesa paints if it can be loaded, or the painter that the environment variable
    GEOMINT_PAINTER names: auto, osmesa, egl or own. Fails with GEOMINT_USAGE if it names another painter or one
-   that cannot be loaded, and with GEOMINT_FILE without a font. */
+   that cannot be loaded, and with GEOMINT_FILE without a font; then the pixels may be anything. */
 int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba);
 /* Writes the picture to a file whose name ends with .png, .svg or .pdf, with its command inside. Missing folders
    are made. Width, height and scale as above; in .svg and .pdf a pixel is 1/96 inch. A title of NULL is the

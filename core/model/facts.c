@@ -944,9 +944,9 @@ static void deny_by(struct gm_user_system *system, struct gm_finding *finding, g
     }
 }
 
-/* All that the equations depend on, ascending. */
+/* All that the equations, or the rates alone, depend on, ascending. */
 static const gm_node_id *parts_of_equations(struct gm_arena *arena, const struct gm_user_system *system,
-                                            size_t *part_count)
+                                            bool of_rates, size_t *part_count)
 {
     size_t count = 0;
     gm_node_id *roots = gm_arena_take(arena, system->n + 1, sizeof *roots);
@@ -954,20 +954,27 @@ static const gm_node_id *parts_of_equations(struct gm_arena *arena, const struct
         roots[count] = system->rates[i];
         count += roots[count] != GM_NO_NODE;
     }
-    if (system->kind != GM_RATES) {
+    if (system->kind != GM_RATES && !of_rates) {
         roots[count++] = system->energy;
     }
     return gm_arena_keep(arena, gm_formula_parts_of(&system->graph, roots, count, part_count), free);
 }
 
-/* True for a jump or a corner that no break stands for, so that schemes step across it: of atan2, or of a square's root. */
-static bool is_stepped_across(const struct gm_formula *graph, gm_node_id part)
+/* True for an operation whose jump or corner no break stands for, so that schemes step across it: of atan2, or of a
+   square's root. */
+static bool is_stepped_across(const struct search *search, gm_node_id part)
 {
-    const struct gm_node node = graph->nodes[part], under = graph->nodes[node.a];
-    return node.operation == GM_OPERATION_ATAN2 ||
-           (node.operation == GM_OPERATION_SQRT &&
-            ((under.operation == GM_OPERATION_WHOLE_POWER && fmod(graph->nodes[under.b].value, 2) == 0) ||
-             (under.operation == GM_OPERATION_MULTIPLY && under.a == under.b)));
+    const struct gm_formula *graph = &search->system->graph;
+    const struct gm_node node = graph->nodes[part];
+    if (node.operation == GM_OPERATION_ATAN2) {
+        return depends(search->system, node.a, search->all) && depends(search->system, node.b, search->all);
+    }
+    if (node.operation != GM_OPERATION_SQRT || !depends(search->system, node.a, search->all)) {
+        return false;
+    }
+    const struct gm_node under = graph->nodes[node.a];
+    return (under.operation == GM_OPERATION_WHOLE_POWER && graph->nodes[under.b].value == 2) ||
+           (under.operation == GM_OPERATION_MULTIPLY && under.a == under.b);
 }
 
 /* Finds the first switch of all equations, and the time; written nodes precede derived ones. */
@@ -976,13 +983,15 @@ static void find_of_parts(const struct search *search)
     struct gm_user_system *system = search->system;
     size_t count = 0;
     gm_node_id rough = GM_NO_NODE, time = GM_NO_NODE, across = GM_NO_NODE;
-    const gm_node_id *parts = parts_of_equations(system->arena, system, &count);
+    const gm_node_id *parts = parts_of_equations(system->arena, system, true, &count);
+    for (size_t k = count; k-- > 0;) {
+        across = is_stepped_across(search, parts[k]) ? parts[k] : across;
+    }
+    parts = parts_of_equations(system->arena, system, false, &count);
     const bool *switches = gm_breaks_switches(system->arena, system);
     for (size_t k = count; k-- > 0;) {
         const struct gm_node *node = &system->graph.nodes[parts[k]];
         rough = switches[parts[k]] ? parts[k] : rough;
-        across =
-            node->operation > GM_VARIABLE && is_stepped_across(&system->graph, parts[k]) ? parts[k] : across;
         time = node->operation == GM_VARIABLE && node->a == system->n ? parts[k] : time;
     }
     search->findings[GM_FACT_SMOOTH].term = across;
@@ -1087,7 +1096,7 @@ static void write_switches(struct gm_arena *arena, const struct reason *reason)
     const struct gm_user_system *system = reason->system;
     const struct gm_naming naming = gm_system_naming(system);
     size_t count = 0, named = 0;
-    const gm_node_id *parts = parts_of_equations(arena, system, &count);
+    const gm_node_id *parts = parts_of_equations(arena, system, false, &count);
     const bool *switches = gm_breaks_switches(arena, system);
     for (size_t k = 0; k < count && named < MOST; k++) {
         const gm_node_id node = parts[k];
@@ -1125,8 +1134,9 @@ static void write_reason(struct gm_arena *arena, void *data)
         fprintf(out, "%s%s", rows[reason->fact].yes,
                 finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
         if (reason->fact == GM_FACT_SMOOTH && finding->term != GM_NO_NODE) {
-            fputs(" but one, across which schemes step: ", out);
+            fputs(" but of ", out);
             write_term(system, finding->term, false, out);
+            fputs(", across which schemes step", out);
         }
         return;
     }

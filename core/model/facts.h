@@ -35,7 +35,7 @@ struct gm_finding {
     bool asked; /* applies to this kind of system */
     bool holds;
     enum gm_identity how;    /* proved, or tested at random points for the system's parameters */
-    gm_node_id term;         /* the reason against it; GM_NO_NODE */
+    gm_node_id term;         /* the reason against it, or what it leaves out; GM_NO_NODE */
     size_t component;        /* component whose rate has the term; n: H or L */
     const char *why;         /* reason in words; NULL: the usual words */
     const gm_node_id *nodes; /* nodes of the facet of core/ode/ode.h, if it holds; owned by the system */

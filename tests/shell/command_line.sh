@@ -541,7 +541,7 @@ cmp -s help out || fail 'geomint run disc -h is not geomint run --help'
 cmp -s help out || fail 'geomint help run is not geomint run --help'
 refused 1 'did you mean render' help rendr
 
-# an end that is no whole number of steps is told once, where an end was asked for; only fields have one
+# an end that is no whole number of steps is told once, where an end was asked for; schemes for fields alone have one
 "$geomint" render sine-gordon scheme=leapfrog,box dt=.03 until=.1 --size 128x96 -o end.png 2>err ||
     fail 'render until=.1 dt=.03'
 [ "$(grep -c '^geomint: the run ends at t = 0.09: until = 0.1 is not a whole' err)" = 1 ] || fail "an end that was not told: $(cat err)"

@@ -46,6 +46,19 @@ for y in 1e-7 5e-8 1e-9; do
     "$geomint" run ends.system y=$y dt=0.1 scheme=rk4 --json >out || fail "near an end, $y"
     python3 -c 'import json, sys; end = json.load(open("out")); assert end["stopped"] and abs(end["t"] - float(sys.argv[1])) < 1e-12, end' $y || fail "near an end, $y: $(cat out)"
 done
+# also where g is flat
+sed 's/y = 0, v < 0/y^3 = 0, v < 0/' near.system >flat.system
+"$geomint" run flat.system y=1e-9 dt=0.1 scheme=rk4 --json | grep -q '"events":1\b' || fail 'near a flat surface'
+# a start on a surface is there by the rounding of its numbers, however large they are, and however short a step
+printf 'rate: x = v, v = -x\nevent: x = 0.5, v < 0; v = 0.5*v\nstart: x = cos(pi/3), v = -sin(pi/3)\nuntil: 1\n' >round.system
+for dt in 0.1 1e-3 1e-5; do
+    "$geomint" run round.system dt=$dt scheme=rk4 --json | grep -q '"events":0\b' || fail "a rounded start, dt=$dt"
+done
+printf 'parameter: R = 6371e3\nparameter: a = 1\nrate: x = u, y = v, u = 0, v = 0\nstop: sqrt(x^2 + y^2) - R\n' >above.system
+printf 'start: x = R*cos(a), y = R*sin(a), u = 100*cos(a), v = 100*sin(a)\nuntil: 1\ndt: 0.1\n' >>above.system
+for a in 0.14 0.16 0.24 0.27 0.28 0.29; do
+    "$geomint" run above.system a=$a scheme=rk4 --json | grep -q '"t":1,' || fail "a start on a large circle, $a"
+done
 # gone on with from a checkpoint, a run stops where the undisturbed one does
 for start in 'q = 0, p = 1' 'q = 1e-17, p = -1'; do
     printf 'coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: %s\nstop: q\ndt: 0.01\n' "$start" >on.system

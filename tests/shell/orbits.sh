@@ -48,6 +48,13 @@ holds 'near(o["divergence_mean"], -.3, 1e-12) and near(o["volume_error"], math.e
 holds 'near(o["log_volume"], 10*math.log(1.21), 1e-9)'
 status 0 run system 'rate=x = v, v = -x - 0.3*v + 0.2*sign(x)' x=1 v=0 scheme=rk2 dt=1 until=12 --measure lyapunov_spectrum,log_volume,volume_error --json
 holds 'near(o["divergence_mean"], -.3, 1e-12) and near(o["volume_error"], math.exp(o["log_volume"] + 3.6) - 1, 1e-9)'
+# a collision after which one speed gives the other: the determinant is 0, not its rounding
+printf 'parameter: m = 1\nrate: x = u, y = v, u = -0.1*u, v = -0.1*v\nstart: x = 0, y = 1, u = 2, v = 0.3\n' >together.system
+printf 'event: x - y = 0, u > v; u = (m*u + 1.3*v)/(m + 1.3), v = (m*u + 1.3*v)/(m + 1.3) - 0.5\n' >>together.system
+for mass in 1 .7 .3; do
+    status 0 run ./together.system m=$mass scheme=gauss8 dt=.05 until=2 --measure log_volume,volume_error --json
+    holds 'o["volume_error"] is None and "determinant 0" in d["reasons"]["volume_error"]'
+done
 # tangents of a file are no components of the motion, also through events; twice as many would grow twice as fast
 sed 's/^start/tangents: 2\nstart/' wall.system >carried.system
 status 0 run ./carried.system scheme=gauss8 dt=.05 until=5 --measure lyapunov_spectrum,lyapunov --json
@@ -93,6 +100,10 @@ for height in 1 .01 1e-4 1e-6 1e-9; do
     status 0 orbit ./bounces.system y0=$height --json
     holds "near(d['period'] / (2*math.sqrt(2*$height/9.8)), 1, 1e-9)"
 done
+# an orbit that is smaller than what closes beside a large number is not shortened without an end
+printf 'rate: x = v, v = -x, z = 0\nstart: x = 5e-9, v = 0, z = 1e6\n' >small.system
+status 0 orbit ./small.system scheme=rk4 dt=.01 period=2*pi --json
+holds 'near(d["period"], 2*math.pi, 1e-6)'
 status 0 orbit clock --json
 holds 'near(d["period"], 6.291054045776003, 1e-11) and near(d["multipliers"][1][0], 0.5330684683745183, 1e-9)'
 # a motion that only decays is no orbit; an event that changes the energy leaves one multiplier of 1: a ball whose speed p

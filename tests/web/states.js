@@ -44,7 +44,7 @@ require(fs.realpathSync(program))({wasmBinary: fs.readFileSync(program.replace(/
         web.FS.writeFile(`/fonts/${font}.ttf`, fs.readFileSync(`${fonts}/${font}.ttf`));
     }
     for (const line of fs.readFileSync(0, 'utf8').split('\n').filter(Boolean)) {
-        const handle = open(JSON.parse(line)), begun = performance.now();
+        const begun = performance.now(), handle = open(JSON.parse(line));
         const sums = web._geomint_lanes(handle) > 0 ? states(handle) : [web.UTF8ToString(web._geomint_message(handle))];
         const seconds = (performance.now() - begun) / 1000;
         console.log(JSON.stringify(!size ? sums : size === 'time' ? seconds : picture(handle, ...size.split('x').map(Number))));

@@ -273,7 +273,8 @@ static void shorten(struct search *search)
     for (int turns = MOST_TURNS; turns > 1; turns--) {
         const double period = orbit->period / turns;
         const double most = part_of(search, stalled);
-        if (follow(search, orbit->start, period, false) <= most) {
+        /* the extent of this part has to be more than what closes */
+        if (follow(search, orbit->start, period, false) <= most && search->extent > 4 * most) {
             orbit->period = search->guess = period;
             iterate(search);
             turns = MOST_TURNS + 1;

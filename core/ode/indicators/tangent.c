@@ -14,7 +14,6 @@
 
 #include "core/arena.h"
 #include "core/functions/functions.h"
-#include "core/linear/iteration.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/theory.h"
@@ -587,31 +586,56 @@ static void integrate(struct gm_tangent *tangent, double time, const double *y)
     if (tangent->probe) {
         gm_run_set_step(tangent->probe, tangent->h / 2);
         gm_run_set_state(tangent->probe, tangent->before, NULL);
-        middle = gm_run_advance(tangent->probe, 1) == GM_OK
-                     ? divergence_at(tangent, gm_run_state(tangent->probe))
-                     : NAN;
+        if (gm_run_advance(tangent->probe, 1) == GM_OK) {
+            middle = divergence_at(tangent, gm_run_state(tangent->probe));
+        } else { /* it makes no step any more */
+            gm_run_close(tangent->probe);
+            tangent->probe = NULL;
+        }
     }
     tangent->volume += time / 6 * (begin + 4 * middle + divergence_at(tangent, y));
 }
 
-/* Adds ln |det S|. */
+static double along(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t c = 0; c < n; c++) {
+        sum += a[c] * b[c];
+    }
+    return sum;
+}
+
+/* Adds ln |det S|: the logarithms of the lengths of its columns, each without its parts along those before. Where round-off
+   alone is left of one, S is singular. */
 static void jump(struct gm_tangent *tangent, const struct gm_event_part *part)
 {
+    const double noise = 1e-28; /* of the squares of lengths */
     const size_t n = tangent->n;
     const struct gm_problem *problem = tangent->run->problem;
-    double *column = tangent->plus;
-    bool carried = true;
-    for (size_t k = 0; k < n && carried; k++) {
-        memset(column, 0, gm_tangent_size(tangent) * sizeof *column);
-        column[k] = 1;
-        carried = problem->events->carry(problem, part, column);
-        memcpy(tangent->square + k * n, column, n * sizeof *column);
+    for (size_t k = 0; k < n; k++) {
+        double *image = tangent->plus, *column = tangent->square + k * n;
+        memset(image, 0, gm_tangent_size(tangent) * sizeof *image);
+        image[k] = 1;
+        problem->events->carry(problem, part, image);
+        memcpy(column, image, n * sizeof *column);
+        const double whole = along(column, column, n);
+        for (size_t i = 0; i < 2 * k; i++) { /* twice, against round-off */
+            const double *before = tangent->square + i % k * n;
+            const double shared = along(before, column, n);
+            for (size_t c = 0; c < n; c++) {
+                column[c] -= shared * before[c];
+            }
+        }
+        const double rest = along(column, column, n);
+        if (!(rest > noise * whole)) {
+            tangent->volume = -INFINITY;
+            return;
+        }
+        for (size_t c = 0; c < n; c++) {
+            column[c] /= sqrt(rest);
+        }
+        tangent->volume += gm_log(rest) / 2;
     }
-    const bool regular = gm_eliminate_columns(n, tangent->square, 0, NULL);
-    for (size_t k = 0; k < n && regular; k++) {
-        tangent->volume += gm_log(fabs(tangent->square[k * n + k]));
-    }
-    tangent->volume -= regular ? 0 : INFINITY;
 }
 
 /* Each of the vectors := the derivative of a step or part of length h from `before` to y, times it; the time that it

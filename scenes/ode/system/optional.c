@@ -215,10 +215,10 @@ static void take_motion(struct gm_arena *arena, void *data)
     alone->followed->motion = gm_user_problem_motion(arena, alone->problem);
 }
 
-static const char *why_none(const struct gm_view *view, size_t kind)
+/* The reason why the indicators of n components are not followed; NULL: they are. */
+static const char *why_none(const struct gm_view *view, size_t kind, size_t n)
 {
     const struct gm_family *family = view->scheme->family;
-    const size_t n = view->problem->n - 2 * view->problem->passive;
     if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
         return family->by_tolerance
                    ? "the lengths of its steps follow a tolerance and have no derivative"
@@ -240,7 +240,6 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
         return NULL;
     }
     followed->scheme = view->scheme;
-    followed->why = why_none(view, kind);
     struct alone alone = {view->problem, followed};
     bool known = !gm_ode_of(view->problem)->written;
     if (!known) {
@@ -248,6 +247,8 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
         known = followed->arena != NULL;
     }
     const struct gm_user_motion *motion = followed->motion;
+    followed->why =
+        why_none(view, kind, motion ? motion->problem.n : view->problem->n - 2 * view->problem->passive);
     double *start = followed->why || !known ? NULL : motion_of(view, followed, view->start);
     if (start) {
         followed->growth = gm_growth_open(motion ? &motion->problem : view->problem, view->scheme,
@@ -262,13 +263,17 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
 }
 
 /* Returns true if the copy is the lane's orbit, to the last bit: the lane may have been changed during its run. Of a lane
-   that carries tangents, which may be iterated with the motion, the last bits are its own: it is not compared. */
+   that carries tangents, which may be iterated with the motion, the last bits are its own. */
 static bool is_same(const struct gm_view *view, const struct followed *followed)
 {
+    const double close = followed->motion ? 1e-6 : 0;
     const struct gm_run *run = gm_growth_run(followed->growth);
-    double *last = motion_of(view, followed, view->state);
-    const bool same =
-        last && (followed->motion || memcmp(gm_run_state(run), last, run->problem->n * sizeof *last) == 0);
+    double *last = motion_of(view, followed, view->state), apart = 0, size = 0;
+    for (size_t c = 0; last && c < run->problem->n; c++) {
+        apart = fmax(apart, fabs(gm_run_state(run)[c] - last[c]));
+        size = fmax(size, fabs(last[c]));
+    }
+    const bool same = last && run->dt == view->run->dt && run->t == view->t && apart <= close * size;
     free(last);
     return same;
 }
