@@ -228,7 +228,7 @@ static void put_field(const struct target *target, const struct planes *planes,
 }
 
 /* Draws at most RUN pixels of a row from x on. */
-INLINE void put_run(const struct target *target, struct triangle *triangle, int x, int y, int count)
+INLINE void put_pixels(const struct target *target, struct triangle *triangle, int x, int y, int count)
 {
     const struct gm_draw_call *call = target->call;
     const struct gm_vertex *vertex = triangle->corner[0].vertex;
@@ -327,7 +327,7 @@ static void put_triangle(const struct target *target, struct corner a, struct co
         const int end = first_from(long_is_left ? other : along, target->left, target->right);
         for (int x = first_from(long_is_left ? along : other, target->left, target->right); x < end;
              x += RUN) {
-            put_run(target, &triangle, x, y, end - x < RUN ? end - x : RUN);
+            put_pixels(target, &triangle, x, y, end - x < RUN ? end - x : RUN);
         }
     }
 }

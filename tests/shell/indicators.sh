@@ -42,12 +42,12 @@ done
 
 # the exponents that are known: of Lorenz' equations .906 (J. C. Sprott, Chaos and Time-Series Analysis, 2003), of the standard
 # map ln(K/2) for large K (B. V. Chirikov, 1979); a planet comes back after 2 pi, and never parts but along its orbit
-value() {
+observed() {
     python3 -c 'import json, sys; print(json.loads(open("out").readline())["observables"][sys.argv[1]])' "$1"
 }
 between() {
-    python3 -c 'import sys; value, low, high = map(float, sys.argv[1:]); sys.exit(not low < value < high)' "$(value "$1")" "$2" "$3" ||
-        fail "$1 = $(value "$1") is not between $2 and $3"
+    python3 -c 'import sys; value, low, high = map(float, sys.argv[1:]); sys.exit(not low < value < high)' "$(observed "$1")" "$2" "$3" ||
+        fail "$1 = $(observed "$1") is not between $2 and $3"
 }
 status 0 run lorenz until=1000 --measure lyapunov --json
 between lyapunov .88 .93

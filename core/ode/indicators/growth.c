@@ -119,46 +119,18 @@ static void add(struct gm_growth *growth, double step, double length)
 
 /* ---- all vectors ---- */
 
-/* v := v less its part along the unit vector u. */
-static void remove_part(const double *u, double *v, size_t n, size_t size)
-{
-    double along = 0;
-    for (size_t c = 0; c < n; c++) {
-        along += u[c] * v[c];
-    }
-    for (size_t c = 0; c < size; c++) {
-        v[c] -= along * u[c];
-    }
-}
-
-/* Makes the vectors orthonormal in the units of the components, one after the other, each twice against round-off,
-   and adds the logarithms of what is left of their lengths. A vector of which only round-off is left was mapped to 0, and
-   stays 0. Returns the first of these lengths. */
+/* Makes the vectors orthonormal in the units of the components, one after the other, and adds the logarithms of what is
+   left of their lengths. Returns the first of these lengths. */
 static double orthonormalise(const struct gm_growth *growth)
 {
     const size_t n = growth->problem.n, size = gm_tangent_size(growth->tangent);
     const double *units = gm_tangent_units(growth->tangent);
-    const double noise = 1e-28; /* of the squares of lengths */
     double first = 0;
     for (size_t k = 0; k < growth->vectors; k++) {
-        double *v = growth->v + k * size, whole = 0, square = 0;
         for (size_t c = 0; c < n; c++) {
-            v[c] /= units[c];
-            whole += v[c] * v[c];
+            growth->v[k * size + c] /= units[c];
         }
-        for (size_t i = 0; i < 2 * k; i++) {
-            remove_part(growth->v + i % k * size, v, n, size);
-        }
-        for (size_t c = 0; c < n; c++) {
-            square += v[c] * v[c];
-        }
-        square = square > noise * whole ? square : 0;
-        for (size_t c = 0; c < size && square == 0; c++) {
-            v[c] = 0;
-        }
-        for (size_t c = 0; c < size && square > 0; c++) {
-            v[c] /= sqrt(square);
-        }
+        const double square = gm_tangent_orthonormalise(growth->v, k, n, size);
         growth->logarithms[k] += gm_log(square) / 2;
         first = k == 0 ? sqrt(square) : first;
     }

@@ -596,45 +596,54 @@ static void integrate(struct gm_tangent *tangent, double time, const double *y)
     tangent->volume += time / 6 * (begin + 4 * middle + divergence_at(tangent, y));
 }
 
-static double along(const double *a, const double *b, size_t n)
+/* v := v less its part along the unit vector u. */
+static void remove_part(const double *u, double *v, size_t n, size_t size)
 {
-    double sum = 0;
+    double along = 0;
     for (size_t c = 0; c < n; c++) {
-        sum += a[c] * b[c];
+        along += u[c] * v[c];
     }
-    return sum;
+    for (size_t c = 0; c < size; c++) {
+        v[c] -= along * u[c];
+    }
 }
 
-/* Adds ln |det S|: the logarithms of the lengths of its columns, each without its parts along those before. Where round-off
-   alone is left of one, S is singular. */
-static void jump(struct gm_tangent *tangent, const struct gm_event_part *part)
+static double square_of(const double *v, size_t n)
+{
+    double square = 0;
+    for (size_t c = 0; c < n; c++) {
+        square += v[c] * v[c];
+    }
+    return square;
+}
+
+double gm_tangent_orthonormalise(double *vectors, size_t k, size_t n, size_t size)
 {
     const double noise = 1e-28; /* of the squares of lengths */
+    double *v = vectors + k * size;
+    const double whole = square_of(v, n);
+    for (size_t i = 0; i < 2 * k; i++) {
+        remove_part(vectors + i % k * size, v, n, size);
+    }
+    const double left = square_of(v, n), square = left > noise * whole ? left : 0;
+    for (size_t c = 0; c < size; c++) {
+        v[c] = square > 0 ? v[c] / sqrt(square) : 0;
+    }
+    return square;
+}
+
+/* Adds ln |det S|, the logarithms of what is left of the lengths of its columns. */
+static void jump(struct gm_tangent *tangent, const struct gm_event_part *part)
+{
     const size_t n = tangent->n;
     const struct gm_problem *problem = tangent->run->problem;
+    double *image = tangent->plus;
     for (size_t k = 0; k < n; k++) {
-        double *image = tangent->plus, *column = tangent->square + k * n;
         memset(image, 0, gm_tangent_size(tangent) * sizeof *image);
         image[k] = 1;
         problem->events->carry(problem, part, image);
-        memcpy(column, image, n * sizeof *column);
-        const double whole = along(column, column, n);
-        for (size_t i = 0; i < 2 * k; i++) { /* twice, against round-off */
-            const double *before = tangent->square + i % k * n;
-            const double shared = along(before, column, n);
-            for (size_t c = 0; c < n; c++) {
-                column[c] -= shared * before[c];
-            }
-        }
-        const double rest = along(column, column, n);
-        if (!(rest > noise * whole)) {
-            tangent->volume = -INFINITY;
-            return;
-        }
-        for (size_t c = 0; c < n; c++) {
-            column[c] /= sqrt(rest);
-        }
-        tangent->volume += gm_log(rest) / 2;
+        memcpy(tangent->square + k * n, image, n * sizeof *image);
+        tangent->volume += gm_log(gm_tangent_orthonormalise(tangent->square, k, n, n)) / 2;
     }
 }
 

@@ -43,6 +43,11 @@ void gm_tangent_follow_volume(struct gm_tangent *tangent, double *square);
 /* Returns it; NaN if the problem has no Jacobian. */
 double gm_tangent_volume(const struct gm_tangent *tangent);
 
+/* Makes vector k, of `size` numbers each, orthogonal in its first n to the k unit vectors before it, twice against
+   round-off, and of length 1. Returns the square of the length that was left. A vector of which only round-off was left
+   was mapped to 0, and becomes 0. */
+double gm_tangent_orthonormalise(double *vectors, size_t k, size_t n, size_t size);
+
 /* Returns true if a step failed since the motion only touched the surface of an event. */
 bool gm_tangent_grazes(const struct gm_tangent *tangent);
 

@@ -241,15 +241,13 @@ static struct followed *open_followed(const struct gm_view *view, size_t kind)
     }
     followed->scheme = view->scheme;
     struct alone alone = {view->problem, followed};
-    bool known = !gm_ode_of(view->problem)->written;
-    if (!known) {
-        followed->arena = gm_arena_made(take_motion, &alone);
-        known = followed->arena != NULL;
-    }
+    const bool written = gm_ode_of(view->problem)->written;
+    followed->arena = written ? gm_arena_made(take_motion, &alone) : NULL;
     const struct gm_user_motion *motion = followed->motion;
     followed->why =
         why_none(view, kind, motion ? motion->problem.n : view->problem->n - 2 * view->problem->passive);
-    double *start = followed->why || !known ? NULL : motion_of(view, followed, view->start);
+    const bool short_of_memory = written && !followed->arena;
+    double *start = followed->why || short_of_memory ? NULL : motion_of(view, followed, view->start);
     if (start) {
         followed->growth = gm_growth_open(motion ? &motion->problem : view->problem, view->scheme,
                                           &view->run->settings, view->t0, view->dt, start);
