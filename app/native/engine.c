@@ -66,8 +66,8 @@ struct build {
 /* Lanes of all threads share them; they stay as long as the program does. */
 static pthread_mutex_t making = PTHREAD_MUTEX_INITIALIZER;
 static struct build *builds;
-static enum gm_engine chosen = GM_ENGINE_INTERPRETED;
-static char kernel_folder[GM_CACHE_PATH];
+static enum gm_engine chosen = GM_ENGINE_AUTO;
+static char kernel_folder[GM_CACHE_PATH]; /* "": nothing can be compiled */
 static void (*tell)(const char *sentence);
 static bool (*interrupted)(void);
 static atomic_bool stopping; /* the program ends, and its compilations with it */
@@ -419,8 +419,8 @@ void gm_engine_meet(struct gm_lane *lane)
 void gm_engine_look(struct gm_lane *lane, double spent, double left)
 {
     static const double building = 5; /* seconds */
-    if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane) || is_native(lane) || stopping ||
-        pthread_mutex_trylock(&making) != 0) {
+    if (chosen == GM_ENGINE_INTERPRETED || !*kernel_folder || !is_written(lane) || is_native(lane) ||
+        stopping || pthread_mutex_trylock(&making) != 0) {
         return;
     }
     spent_in_all += spent;

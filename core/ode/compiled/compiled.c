@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loops of systems that the build compiled: a copy of their file, or another file with the same formulas, has them
    too. GM_COMPILED_ROWS is a row GM_ROW(NAME) for each. */
-#include <string.h>
-
-#include "core/ode/kernel/digest.h"
 #include "core/ode/kernel/loops.h"
 
 #define GM_ROW(name) extern const struct gm_compiled_kernel gm_compiled_##name;
@@ -16,13 +13,11 @@ static const struct gm_compiled_kernel *const compiled[] = {
 #undef GM_ROW
         NULL};
 
-const struct gm_loops *gm_compiled_loops(const char *text, size_t members)
+const struct gm_loops *gm_compiled_loops(struct gm_digest digest, size_t members)
 {
     /* Loops that advance an ensemble member by member are faster than the interpreter for few members (Kepler with
        scheme=verlet: 0.9 of its time for 13 members, 3 times as long for 100). */
     enum { FEW = 16 };
-    struct gm_digest digest = gm_digest_open();
-    gm_digest_add(&digest, text, strlen(text));
     for (size_t i = 0; compiled[i]; i++) {
         if (compiled[i]->key[0] == digest.a && compiled[i]->key[1] == digest.b) {
             return members > FEW && !compiled[i]->of_ensembles

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "core/ode/kernel/digest.h"
 #include "core/ode/ode.h"
 
 struct gm_stages; /* core/ode/kernel/stages.h */
@@ -62,15 +63,15 @@ struct gm_loops {
 
 /* The loops of a system of share/systems whose file has a line `compile:`. */
 struct gm_compiled_kernel {
-    uint64_t key[2]; /* the digest of its kernel's text */
+    uint64_t key[2]; /* of the digest of its kernel's functions */
     size_t components;
     bool of_ensembles; /* its file is one of many members */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };
 #define GM_COMPILED_NAME(problem) GM_COMPILED_NAME_(problem)
 #define GM_COMPILED_NAME_(problem) gm_compiled_##problem
-/* Returns the program's loops of a kernel with this text, for a number of members; NULL: not compiled in. */
-const struct gm_loops *gm_compiled_loops(const char *text, size_t members);
+/* Returns the program's loops of a kernel with this digest, for a number of members; NULL: not compiled in. */
+const struct gm_loops *gm_compiled_loops(struct gm_digest digest, size_t members);
 /* Returns true if the program has loops of a system with this number of components. */
 bool gm_compiled_has(size_t components);
 

@@ -189,6 +189,8 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
     return true;
 }
 
+static const char assertion[] = "_Static_assert";
+
 /* Compilation fails if structs that loops and program share differ in layout. A browser has shorter pointers than the
    machine that writes its loops. */
 static void put_layout(FILE *out)
@@ -206,9 +208,17 @@ static void put_layout(FILE *out)
     };
 #undef GM_LAID_OUT
     for (size_t i = 0; i < GM_COUNT(layout); i++) {
-        fprintf(out, "_Static_assert(sizeof(void *) != %zu || sizeof(%s) == %zu, \"of another build\");\n",
+        fprintf(out, "%s(sizeof(void *) != %zu || sizeof(%s) == %zu, \"of another build\");\n", assertion,
                 sizeof(void *), layout[i].type, layout[i].size);
     }
+}
+
+struct gm_digest gm_kernel_digest(const char *text)
+{
+    const char *layout = strstr(text, assertion);
+    struct gm_digest digest = gm_digest_open();
+    gm_digest_add(&digest, text, layout ? (size_t)(layout - text) : strlen(text));
+    return digest;
 }
 
 /* Returns true if the tape reads one of the inputs [first, last). */
@@ -269,10 +279,10 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
         if (wanted[GM_KERNEL_SURFACES]) {
             fprintf(out, "#define GM_SURFACES %zu\n", source->tapes[GM_KERNEL_SURFACES]->outputs);
         }
-        put_layout(out);
         for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
             known = known && (!wanted[k] || put_function(out, source, (enum gm_kernel_function)k, made));
         }
+        put_layout(out);
         good = !ferror(out);
         good = fclose(out) == 0 && good;
     }

@@ -4,6 +4,7 @@
 #define GM_CORE_ODE_USER_KERNEL_H
 
 #include "core/expression/derivative.h"
+#include "core/ode/kernel/digest.h"
 #include "core/tape.h"
 
 /* The functions of a kernel file. */
@@ -37,5 +38,9 @@ bool gm_kernel_splits(const struct gm_kernel_source *source);
    and holds no word of the system's text. H = T(p) + V(q) if there is a force. The caller frees. Returns NULL
    with the reason in *lacks, which is NULL when out of memory. */
 char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks);
+
+/* Returns the digest of a text's functions. The layout of structs, which the rest asserts, is another one in a browser than
+   on the machine that writes the text. */
+struct gm_digest gm_kernel_digest(const char *text);
 
 #endif

@@ -12,7 +12,6 @@
 #include "core/expression/derivative.h"
 #include "core/files/generated.h"
 #include "core/model/equations.h"
-#include "core/ode/kernel/digest.h"
 #include "core/ode/user/kernel.h"
 #include "core/ode/user/model.h"
 
@@ -88,8 +87,7 @@ int main(int argc, char *argv[])
     FILE *out = text ? fopen(argv[2], "w") : NULL;
     bool written = out && fputs(text, out) >= 0;
     if (written && argc == 4) {
-        struct gm_digest key = gm_digest_open();
-        gm_digest_add(&key, text, strlen(text));
+        const struct gm_digest key = gm_kernel_digest(text);
         written = fprintf(out, "#define GM_KERNEL_KEY UINT64_C(0x%llx), UINT64_C(0x%llx)\n",
                           (unsigned long long)key.a, (unsigned long long)key.b) > 0;
     }

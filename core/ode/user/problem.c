@@ -705,7 +705,7 @@ void gm_user_problem_take_compiled(struct gm_problem *problem, int over)
 {
     const char *lacks;
     char *text = gm_compiled_has(problem->n) ? gm_user_problem_kernel(problem, over, &lacks) : NULL;
-    const struct gm_loops *loops = text ? gm_compiled_loops(text, problem->m) : NULL;
+    const struct gm_loops *loops = text ? gm_compiled_loops(gm_kernel_digest(text), problem->m) : NULL;
     if (loops) {
         gm_user_problem_take(problem, loops);
     }
