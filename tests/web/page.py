@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page of `geomint web` in headless Chromium against the native library: page.py BUILD PAGE.html [SCREENSHOTS], or
-page.py BUILD PAGE.html frames [SECONDS], which plays that long and prints what frames cost and how much memory is used.
+page.py BUILD PAGE.html frames [SECONDS [SCENE ...]], which plays that long and prints what frames cost and how much memory
+is used.
 What its controls do must give the numbers that the same verbs of geomint.h give, its PNG the pixels of `geomint render`, and
 nothing may be requested of the network or complained about in the console."""
 import asyncio
 import base64
+import contextlib
 import ctypes
 import json
 import os
+import pathlib
 import shlex
 import statistics
 import subprocess
@@ -357,22 +360,28 @@ async def picture(port):
     os.replace(folder + "/page.png", shots + "/page.png")
 
 
-def memory(process):
-    """Megabytes of a process and of all that it has started."""
-    rows = [line.split() for line in subprocess.run(["ps", "-eo", "pid,ppid,rss"], capture_output=True, text=True,
-                                                    check=True).stdout.splitlines()[1:]]
+def used(process):
+    """Megabytes of a process and of all that it has started, and their seconds of processor time, each by its number."""
+    rows = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError): # it has ended
+            rows.append([path.parent.name, *path.read_text().rpartition(")")[2].split()])
     family = {str(process)}
-    while not family >= (more := {pid for pid, parent, _ in rows if parent in family}):
+    while not family >= (more := {row[0] for row in rows if row[2] in family}):
         family |= more
-    return sum(int(size) for pid, _, size in rows if pid in family) / 1024
+    own = [row for row in rows if row[0] in family]
+    seconds = {row[0]: (int(row[12]) + int(row[13])) / os.sysconf("SC_CLK_TCK") for row in own}
+    return sum(int(row[22]) for row in own) * os.sysconf("SC_PAGE_SIZE") / 2**20, seconds
 
 
-async def frames(port, process, seconds):
-    for scene in "disc", "kepler", "vortices":
-        page = await Page().open(port, lesson(scene + ".html", scene), width=1648, height=866)
+async def frames(port, process, seconds, scenes):
+    for scene in scenes:
+        url, before = lesson(scene + ".html", scene), used(process)[1]
+        page = await Page().open(port, url, width=1648, height=866)
+        spent = sum(seconds - before.get(number, 0) for number, seconds in used(process)[1].items())
         await page.value("play(true)")
         await asyncio.sleep(3)
-        begun, before, costs = time.monotonic(), memory(process), []
+        begun, before, costs = time.monotonic(), used(process)[0], []
         first = int(await page.value("document.body.dataset.frames"))
         while time.monotonic() < begun + seconds:
             await asyncio.sleep(0.1)
@@ -380,7 +389,8 @@ async def frames(port, process, seconds):
         count = int(await page.value("document.body.dataset.frames")) - first
         width, height = await page.value("[canvas.width, canvas.height]")
         print(f"{scene}, {width} x {height}: {statistics.median(costs):.1f} ms a frame, {count / seconds:.0f} frames a second; "
-              f"{before:.0f} MB, {memory(process):.0f} MB after {seconds} s, t = {await page.value('view.t')}", flush=True)
+              f"{spent:.2f} s of processor time to the first picture; {before:.0f} MB, {used(process)[0]:.0f} MB after "
+              f"{seconds} s, t = {await page.value('view.t')}", flush=True)
         await page.send("Page.close")
 
 
@@ -393,7 +403,8 @@ async def main():
             await asyncio.sleep(0.1)
         port = open(profile + "/DevToolsActivePort", encoding="ascii").readline().strip()
         if timed:
-            await frames(port, chromium.pid, int(sys.argv[4]) if len(sys.argv) > 4 else 10)
+            seconds = int(sys.argv[4]) if len(sys.argv) > 4 else 10
+            await frames(port, chromium.pid, seconds, sys.argv[5:] or ["disc", "kepler", "vortices"])
             return
         await controls(port)
         await other_views(port)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """States and pictures of the library in WebAssembly against the native one: same.py BUILD BUILD_WEB [FONTS [time]].
 Each run of runs.txt must end in the same bits, and each picture have the same pixels as the program's own painter. With the
-word time it measures instead: how long runs take in node, and natively (of a build with -Dloops=baseline, which has no wider
+word time it measures instead the processor time that runs take in node, and natively (of a build with -Dloops=baseline, which has no wider
 vectors than WebAssembly)."""
 import ctypes
 import hashlib
@@ -66,13 +66,13 @@ def in_wasm(lines, shape):
 
 
 def times(runs, rounds=5):
-    """Medians of the seconds of both, of rounds in turns, and their ratio."""
+    """Medians of the seconds of processor time of both, of rounds in turns, and their ratio."""
     for words in map(shlex.split, runs):
         native_times, wasm_times = [], []
         for _ in range(rounds):
-            begun = time.perf_counter()
+            begun = time.process_time()
             native(words, "")
-            native_times.append(time.perf_counter() - begun)
+            native_times.append(time.process_time() - begun)
             wasm_times += in_wasm([words], "time")
         ours, wasm = statistics.median(native_times), statistics.median(wasm_times)
         print(f"{shlex.join(words)}: {ours:.3f} s, in WebAssembly {wasm:.3f} s, {wasm / ours:.2f} times", flush=True)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library in WebAssembly, run by node as a page would run it: node states.js GEOMINT.js FONTS [WIDTHxHEIGHTxSCALE]
 // reads lines of words, one JSON array each, runs each to its end, and prints the sums of its states or, with a size, of its
-// picture. With "time" for a size it prints the seconds that a run took.
+// picture. With "time" for a size it prints the seconds of processor time that a run took.
 const crypto = require('crypto'), fs = require('fs');
 const [, , program, fonts, size] = process.argv;
 delete globalThis.fetch; // emscripten 3.1.6 would take node for a browser
@@ -44,9 +44,9 @@ require(fs.realpathSync(program))({wasmBinary: fs.readFileSync(program.replace(/
         web.FS.writeFile(`/fonts/${font}.ttf`, fs.readFileSync(`${fonts}/${font}.ttf`));
     }
     for (const line of fs.readFileSync(0, 'utf8').split('\n').filter(Boolean)) {
-        const begun = performance.now(), handle = open(JSON.parse(line));
+        const begun = process.cpuUsage(), handle = open(JSON.parse(line));
         const sums = web._geomint_lanes(handle) > 0 ? states(handle) : [web.UTF8ToString(web._geomint_message(handle))];
-        const seconds = (performance.now() - begun) / 1000;
+        const {user, system} = process.cpuUsage(begun), seconds = (user + system) / 1e6;
         console.log(JSON.stringify(!size ? sums : size === 'time' ? seconds : picture(handle, ...size.split('x').map(Number))));
         web._geomint_close(handle);
     }
