@@ -15,6 +15,7 @@
 #include "core/linear/fourier.h"
 #include "core/linear/gmres.h"
 #include "core/linear/ring/blocks.h"
+#include "core/linear/ring/newton.h"
 #include "core/linear/ring/ring.h"
 
 /* Both ring solvers against the matrix. */
@@ -393,10 +394,63 @@ static void systems_are_solved_by_gmres(void **unused)
     assert_true(iterations == 2 + GM_GMRES_BASIS);
 }
 
+/* atan v_i + (v_{i-1} - v_{i+1})/8, where v = u - `solution`. The sum of v_i times it is that of v_i atan v_i, so that
+   v = 0 is its only zero. */
+enum { ARCS = 12 };
+struct arcs {
+    const double *solution;
+    double v[ARCS];
+};
+
+static void find_arcs(void *context, const double *u, double *residual)
+{
+    struct arcs *arcs = context;
+    for (size_t i = 0; i < ARCS; i++) {
+        arcs->v[i] = u[i] - arcs->solution[i];
+    }
+    for (size_t i = 0; i < ARCS; i++) {
+        residual[i] = -atan(arcs->v[i]) - (arcs->v[(i + ARCS - 1) % ARCS] - arcs->v[(i + 1) % ARCS]) / 8;
+    }
+}
+
+static void find_slopes_of_arcs(void *context, struct gm_ring_band *matrix)
+{
+    const struct arcs *arcs = context;
+    for (size_t i = 0; i < ARCS; i++) {
+        gm_ring_band_add(matrix, i, 0, 0, 0, 1 / (1 + arcs->v[i] * arcs->v[i]));
+        gm_ring_band_add(matrix, i, 0, -1, 0, 0.125);
+        gm_ring_band_add(matrix, i, 0, 1, 0, -0.125);
+    }
+}
+
+/* Newton's method for the arcs diverges where |v| > 1.4, as for one arctangent; halved steps lead to the
+   solution. It is far from 0, so that steps and places differ. */
+static void newton_halves_its_steps(void **unused)
+{
+    (void)unused;
+    double solution[ARCS], u[ARCS];
+    for (size_t i = 0; i < ARCS; i++) {
+        solution[i] = 1000 + cos((double)i);
+        u[i] = solution[i] + 3;
+    }
+    struct arcs arcs = {.solution = solution};
+    const struct gm_ring_equations equations = {&arcs, find_arcs, find_slopes_of_arcs};
+    struct gm_ring_newton newton;
+    struct gm_progress progress = {0};
+    assert_true(gm_ring_newton_open(&newton, ARCS, 1, 1));
+    assert_true(gm_ring_newton_solve(&newton, &equations, u, &progress) == GM_OK);
+    for (size_t i = 0; i < ARCS; i++) {
+        assert_true(fabs(u[i] - solution[i]) < 1e-12);
+    }
+    assert_true(progress.evaluations > progress.iterations); /* some steps were halved */
+    gm_ring_newton_close(&newton);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rings_are_solved),
+        cmocka_unit_test(newton_halves_its_steps),
         cmocka_unit_test(a_root_on_the_unit_circle),
         cmocka_unit_test(roots_near_the_unit_circle),
         cmocka_unit_test(rings_of_blocks_are_solved),
