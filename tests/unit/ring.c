@@ -282,7 +282,8 @@ static void roots_near_the_unit_circle(void **unused)
 static double block_residual(size_t count, size_t n, const double *b, const double *c)
 {
     struct gm_ring_blocks blocks;
-    double y[4 * 40], g[4 * 40], scratch[6 * 40], largest = 0;
+    double y[GM_RING_BLOCKS_MOST * 40], g[GM_RING_BLOCKS_MOST * 40], scratch[(GM_RING_BLOCKS_MOST + 2) * 40],
+        largest = 0;
     if (!gm_ring_blocks_make(&blocks, count, n, b, c)) {
         return NAN;
     }
@@ -322,6 +323,16 @@ static void rings_of_blocks_are_solved(void **unused)
     assert_true(isnan(block_residual(40, 1, &(double){1}, &(double){-1}))); // a constant has no image
     assert_true(isnan(block_residual(40, 1, &(double){1}, &(double){0})));
     assert_true(isnan(block_residual(40, 2, unit, (double[]){1, 2, 2, 4})));
+    /* as many unknowns as fit, with roots near -0.3 and -3 */
+    enum { MOST = GM_RING_BLOCKS_MOST };
+    double full[MOST * MOST], identity[MOST * MOST];
+    for (size_t k = 0; k < MOST * MOST; k++) {
+        const size_t row = k / MOST;
+        identity[k] = row == k % MOST;
+        full[k] =
+            0.05 * cos(1 + 1.9 * (double)k) + identity[k] * (row % 2 ? 3 : 0.3) * (1 + (double)row / 20);
+    }
+    assert_true(block_residual(40, MOST, full, identity) < 1e-12);
     struct gm_ring_blocks blocks;
     const double wide[(GM_RING_BLOCKS_MOST + 1) * (GM_RING_BLOCKS_MOST + 1)] = {0};
     assert_false(gm_ring_blocks_make(&blocks, 40, GM_RING_BLOCKS_MOST + 1, wide, wide));
