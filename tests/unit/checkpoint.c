@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checkpoints: what they keep, and those that were forged, whose checksum is right and which say what cannot
-   be. */
+   be. The table of contents of an archive beyond 4 GB. */
 #include "app/output/frames.h"
 
 #include <libdeflate.h>
@@ -16,6 +16,7 @@
 
 #include <cmocka.h>
 
+#include "app/data/format.h"
 #include "app/words/drive.h"
 #include "core/basics.h"
 #include "render/picture/picture.h"
@@ -286,14 +287,62 @@ static void other_files_are_refused(void **unused)
     close_render(&render);
 }
 
+/* A number of `count` bytes, the lowest first. */
+static uint64_t number_at(const unsigned char *bytes, size_t count)
+{
+    return count == 0 ? 0 : bytes[0] + 256 * number_at(bytes + 1, count - 1);
+}
+
+/* The table of contents of an array of 4.8 GB and of one after it, without the arrays: a file with them is too long for
+   a test. Sizes and places that need 64 bits are in the extra field (APPNOTE.TXT 6.3.10, 4.3.12 and 4.5.3). */
+static void archives_may_be_longer_than_4_gb(void **unused)
+{
+    (void)unused;
+    enum { NUMBERS = 600000000, HEADER = 46, LOCAL = 30 + 20 };
+    static const char *const names[] = {"large.npy", "after.npy"};
+    char path[300];
+    unsigned char table[1024] = {0};
+    uint32_t crc;
+    snprintf(path, sizeof path, "%s/large.npz", folder);
+    FILE *file = fopen(path, "w+");
+    assert_non_null(file);
+    struct gm_bytes bytes = gm_bytes_of(fileno(file));
+    struct gm_npz npz = {.file = &bytes};
+    gm_npz_reserve(&npz, "large", &(struct gm_npz_shape){GM_NPZ_REAL, 1, {NUMBERS}}, &crc);
+    gm_npz_reserve(&npz, "after", &(struct gm_npz_shape){GM_NPZ_REAL, 1, {3}}, &crc);
+    npz.place = 0;
+    gm_npz_finish(&npz);
+    gm_npz_close(&npz);
+    assert_int_equal(bytes.why, 0);
+    assert_true(fread(table, 1, sizeof table, file) > 0);
+    const unsigned char *at = table;
+    uint64_t end = 0; /* of the array before */
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        const size_t name = number_at(at + 28, 2), extra = number_at(at + 30, 2);
+        const unsigned char *wide = at + HEADER + name;
+        assert_true(number_at(at, 4) == 0x02014b50 && name == strlen(names[i]));
+        assert_memory_equal(at + HEADER, names[i], name);
+        /* both sizes and the place */
+        assert_true(number_at(at + 20, 4) == UINT32_MAX && number_at(at + 24, 4) == UINT32_MAX &&
+                    number_at(at + 42, 4) == UINT32_MAX);
+        assert_true(number_at(wide, 2) == 1 && number_at(wide + 2, 2) == 3 * 8 && extra == 4 + 3 * 8);
+        const uint64_t size = number_at(wide + 4, 8), numbers = i == 0 ? NUMBERS : 3;
+        assert_true(size > 8 * numbers && size < 8 * numbers + 256 && number_at(wide + 12, 8) == size);
+        assert_true(number_at(wide + 20, 8) == end);
+        end += LOCAL + name + size;
+        at = wide + extra;
+    }
+    assert_true(number_at(at, 4) == 0x06054b50);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(remove(path), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
-        TEST(a_damaged_head_is_refused),
-        TEST(impossible_runs_are_refused),
-        TEST(any_word_is_survived),
-        TEST(other_files_are_refused),
+        TEST(a_damaged_head_is_refused), TEST(impossible_runs_are_refused),      TEST(any_word_is_survived),
+        TEST(other_files_are_refused),   TEST(archives_may_be_longer_than_4_gb),
     };
     return cmocka_run_group_tests_name("checkpoint", tests, NULL, NULL);
 }
