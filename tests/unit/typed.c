@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -315,12 +316,37 @@ static void lanes(void **unused)
     gm_request_close(&request);
 }
 
+/* A system that was typed stays when its request was read: runs are opened of it after others were typed. */
+static void typed_systems_stay(void **unused)
+{
+    (void)unused;
+    enum { SYSTEMS = 3 };
+    struct gm_request requests[SYSTEMS];
+    for (size_t i = 0; i < SYSTEMS; i++) {
+        char line[80], message[GM_MESSAGE];
+        struct gm_typed_fault fault;
+        snprintf(line, sizeof line, "H=p^2/2 + q^%zu/4 q=%zu p=%zu", 2 + i, 3 + i, 5 * i);
+        assert_true(gm_typed_request(&requests[i], line, 1, &fault));
+        for (size_t k = 0; k <= i; k++) {
+            struct gm_lane *lane = gm_request_open_lane(&requests[k], 0, message);
+            assert_non_null(lane);
+            const double *state = gm_run_state(lane->run);
+            assert_true(state[0] == (double)(3 + k) && state[1] == (double)(5 * k));
+            gm_lane_close(lane);
+        }
+    }
+    for (size_t i = 0; i < SYSTEMS; i++) {
+        gm_request_close(&requests[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words),         cmocka_unit_test(places), cmocka_unit_test(schemes),
-        cmocka_unit_test(formulas),      cmocka_unit_test(saved),  cmocka_unit_test(lanes),
-        cmocka_unit_test(default_lanes),
+        cmocka_unit_test(words),         cmocka_unit_test(places),
+        cmocka_unit_test(schemes),       cmocka_unit_test(formulas),
+        cmocka_unit_test(saved),         cmocka_unit_test(lanes),
+        cmocka_unit_test(default_lanes), cmocka_unit_test(typed_systems_stay),
     };
     return cmocka_run_group_tests_name("typed", tests, NULL, NULL);
 }
