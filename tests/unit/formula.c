@@ -555,6 +555,7 @@ static void identities_are_found(void **unused)
         {"sin(-x) + sin(x)", GM_ZERO_PROVED},
         {"x/y - x*(1/y)", GM_ZERO_PROVED},
         {"exp(x + y) - exp(x)*exp(y)", GM_ZERO_TESTED},
+        {"1/(exp(200*x)*exp(y)) - 1/exp(200*x + y)", GM_ZERO_TESTED}, /* at some points exp overflows */
         {"sin(2*x) - 2*sin(x)*cos(x)", GM_ZERO_TESTED},
         {"min(x, y) + max(x, y) - x - y", GM_ZERO_PROVED},
         {"x*(0.1*0.2*3) - 0.06*x", GM_ZERO_PROVED},
