@@ -126,6 +126,20 @@ static void stars(void **unused)
 #define SQUARE "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1.1 1 0\n0 1.2 0\n$EndNodes\n"
 #define ELEMENTS(text) "$Elements\n" text "$EndElements\n"
 
+/* Of five triangles around node 1 the last has the angle 90 + atan(7/23) degrees there, which faces the boundary. That
+   of 125 degrees in the first one is larger, but it faces an edge whose dual is positive: the mesh is Delaunay there. */
+static void largest_angle_of_a_bad_edge(void **unused)
+{
+    (void)unused;
+    static const char text[] = HEAD
+        "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n0 1.3 0\n-.3 .4 0\n-1.4 .1 0\n-.7 -2.3 0\n"
+        "2.3 -.7 0\n$EndNodes\n" ELEMENTS("1 5 1 5\n2 1 2 5\n1 3 1 2\n2 4 5 1\n3 3 4 1\n4 1 5 6\n5 2 1 6\n");
+    const struct gm_triangulation_fault fault = fault_of(text, strlen(text));
+    assert_int_equal(fault.kind, GM_TRIANGULATION_NOT_DELAUNAY);
+    assert_int_equal(fault.triangle, 5);
+    assert_true(fabs(fault.value - (90 + atan(7. / 23) * 180 / M_PI)) < 1e-12);
+}
+
 static void sentences(void **unused)
 {
     (void)unused;
@@ -339,6 +353,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_files),
         cmocka_unit_test(broken_files),
+        cmocka_unit_test(largest_angle_of_a_bad_edge),
         cmocka_unit_test(sentences),
         cmocka_unit_test(cut_anywhere),
         cmocka_unit_test(boundaries),
