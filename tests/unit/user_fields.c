@@ -682,6 +682,7 @@ static void a_field_closes_on_its_ring(void **unused)
         {"field: u\nV: 1 - cos(u)\nstart: u = 4*atan(exp(x)), u_t = 0\n", 0, "does not close on the ring"},
         {"field: u\nV: (u^2 - 1)^2/4\nstart: u = tanh(x/sqrt(2)), u_t = 0\n", 2, "V' does not repeat"},
         {"field: u\nV: u^2\nstart: u = 1/x, u_t = 0\n", 0, "is not finite where x = 0"},
+        {"field: u\nV: u^2\nstart: u = 1, u_t = 1/x\n", 0, "u_t at the start is not finite where x = 0"},
         {"field: u\nV: u^2\nstart: u = exp(-x^2), u_t = 0\n", 0, NULL},
         {"field: u\nV: u^2\nstart: u = 3, u_t = 0\n", 0, NULL},
     };
