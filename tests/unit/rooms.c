@@ -1082,6 +1082,7 @@ static void layers_rest(void **unused)
     struct gm_run *run = open_run(flow, &problem, "semi-implicit", 0.01, y);
     gm_run_advance(run, 5);
     assert_int_equal(run->status, GM_OK);
+    assert_int_equal(run->solves, 5 * 3); /* for the flow two a step, and for the temperature one */
     assert_true(gm_flow_largest_speed(flow, gm_run_state(run)) < 1e-9);
     assert_true(gm_flow_pressure(flow, gm_run_state(run), pressure));
     /* p = buoyancy ((y - 1/2)^2 / 2 - 1/24) */
