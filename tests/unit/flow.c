@@ -18,6 +18,7 @@
 #include "core/form/gmsh.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/meshes.h"
 #include "tests/common/reference.h"
 
@@ -764,6 +765,25 @@ static void samples_are_cubic(void **unused)
     gm_flow_close(flow);
 }
 
+/* The order that a certificate measures holds for the order that a scheme has, and for no other, whose other claims
+   stay. */
+static void wrong_orders_are_refuted(void **unused)
+{
+    (void)unused;
+    for (int order = 1; order <= 2; order++) {
+        struct gm_scheme scheme = *gm_scheme_find("semi-implicit");
+        assert_int_equal(scheme.order, 1);
+        scheme.order = order;
+        const struct gm_certificate certificate = gm_certify(&scheme);
+        assert_true(fabs(certificate.order - 1) < 0.1);
+        assert_int_equal(certificate.order_holds, order == 1);
+        assert_int_equal(certificate.holds, order == 1);
+        for (size_t k = 0; k < GM_CLAIM_COUNT; k++) {
+            assert_true(certificate.claims[k].holds || !(scheme.claims & 1u << k));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -774,7 +794,7 @@ int main(void)
         cmocka_unit_test(artefacts_end_a_run),   cmocka_unit_test(channel_agrees),
         cmocka_unit_test(torus_agrees),          cmocka_unit_test(torus_conserves),
         cmocka_unit_test(snapshots_resume),      cmocka_unit_test(tracers_do_not_matter),
-        cmocka_unit_test(samples_are_cubic),
+        cmocka_unit_test(samples_are_cubic),     cmocka_unit_test(wrong_orders_are_refuted),
     };
     reference_open("flow.txt");
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
