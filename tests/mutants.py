@@ -207,9 +207,9 @@ def build(folder, picked):
 
 def limit():
     """A mutant may run, write and allocate for ever."""
-    resource.setrlimit(resource.RLIMIT_CPU, (300, 300))
+    resource.setrlimit(resource.RLIMIT_CPU, (600, 600))  # not less than a shell test sets: it could not raise it
     resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 28, 1 << 28))
-    resource.setrlimit(resource.RLIMIT_AS, (1 << 33, 1 << 33))
+    resource.setrlimit(resource.RLIMIT_DATA, (1 << 33, 1 << 33))  # RLIMIT_AS would choose another painter
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
