@@ -15,10 +15,12 @@
 #include "app/words/request.h"
 #include "app/words/system.h"
 #include "core/basics.h"
+#include "core/field/families/laws/laws.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "scenes/common/lane_pack.h"
+#include "tests/common/lane.h"
 
 enum { BEFORE = 7, AFTER = 6 };
 
@@ -507,6 +509,58 @@ static void tracks_know_no_calls(void **unused)
     }
 }
 
+/* The laws of a variable mesh for u_tt = u_xx (Razafindralandy, Hamdouni & Chhay (2018), eqs. 67b and 67c), from three
+   successive levels: e = (u_t^2 + u_x^2)/2 with forward differences in each cell. */
+static void laws_of_a_variable_mesh(void **unused)
+{
+    (void)unused;
+    enum { POINTS = 24, LEVELS = 3, BEFORE_THEM = 13 /* when the wave passes the end */ };
+    struct gm_lane *lane = test_lane("wave points=24 courant=0.7 sharpness=2 scheme=leapfrog");
+    double u[LEVELS][POINTS], e[LEVELS - 1][POINTS], energy = 0, momentum = 0, largest = 0, seen[5] = {0};
+    static const char *const keys[] = {"energy_law_residual", "momentum_law_residual", "unknowns",
+                                       "equations", "rank"};
+    const double dt = lane->run->dt, dx = lane->problem.line.dx;
+    for (size_t level = 0; level < LEVELS; level++) {
+        gm_lane_to(lane, (int64_t)(BEFORE_THEM + level), 1e9);
+        memcpy(u[level], gm_run_state(lane->run), sizeof u[level]);
+        for (size_t k = 0; k < GM_COUNT(keys) && level == 1; k++) {
+            seen[k] = test_observed(lane, keys[k]);
+        }
+    }
+    for (size_t j = 0; j < POINTS; j++) {
+        for (size_t level = 0; level + 1 < LEVELS; level++) {
+            e[level][j] = (pow((u[level + 1][j] - u[level][j]) / dt, 2) +
+                           pow((u[level][(j + 1) % POINTS] - u[level][j]) / dx, 2)) /
+                          2;
+        }
+        energy = fmax(energy, fabs(e[1][j] - e[0][j]));
+        largest = fmax(largest, e[1][j]);
+    }
+    for (size_t j = 0; j < POINTS; j++) {
+        momentum = fmax(momentum, fabs(e[1][j] - e[1][(j + 1) % POINTS]));
+    }
+    assert_true(energy > 0.1 * largest && momentum > 0.1 * largest); /* the laws do not hold */
+    assert_true(fabs(seen[0] - energy / largest) < 1e-12);
+    assert_true(fabs(seen[1] - momentum / largest) < 1e-12);
+    /* t, and x and u of every node; an equation for each of t, x, and u of a node; only t and the u are determined */
+    assert_true(seen[2] == 2 * POINTS + 1 && seen[3] == 3 * POINTS && seen[4] == POINTS + 1);
+    gm_lane_close(lane);
+}
+
+/* The momentum of a wave may be small, or 0: then its error is not relative. */
+static void errors_of_a_small_momentum_are_absolute(void **unused)
+{
+    (void)unused;
+    struct gm_lane *lane =
+        test_lane("sine-gordon points=100 scheme=energy-conserving initial=kink velocity=0.1");
+    const double before = gm_wave_momentum(&lane->problem, gm_run_state(lane->run));
+    gm_lane_to(lane, 40, 1e9);
+    const double change = fabs(gm_wave_momentum(&lane->problem, gm_run_state(lane->run)) - before);
+    assert_true(change > 1e-9 && fabs(before) < 1);
+    assert_true(fabs(test_observed(lane, "momentum_error") - change) < 1e-12);
+    gm_lane_close(lane);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -523,6 +577,8 @@ int main(void)
         cmocka_unit_test(thinned_records_are_shown_at_every_step),
         cmocka_unit_test(stops_together),
         cmocka_unit_test(tracks_know_no_calls),
+        cmocka_unit_test(laws_of_a_variable_mesh),
+        cmocka_unit_test(errors_of_a_small_momentum_are_absolute),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
