@@ -403,7 +403,6 @@ struct gm_panel *gm_chart_panel(struct gm_picture *picture, enum gm_place place,
 {
     struct gm_panel *panel = gm_panel_add(picture, place, title);
     panel->axes = true;
-    panel->title_role = GM_INK;
     panel->x = *x;
     panel->y = *y;
     return panel;

@@ -559,7 +559,6 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
                                             : observable->title;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title);
     panel->axes = true;
-    panel->title_role = GM_INK;
     set_time_axis(picture, panel, lanes, count, series, graph);
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
     if (set_value_axis(panel, lanes, count, series, graph, points) && graph->scale == GM_LOG) {
@@ -598,7 +597,6 @@ static void draw_lane_together(struct gm_picture *picture, const struct gm_walk 
     const struct gm_lane *lane = walk->lane;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
     panel->axes = true;
-    panel->title_role = GM_INK;
     gm_time_axis(&panel->x, walk->lanes, walk->count);
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = range[0], .high = range[1]};
     mark_roundoff(picture, panel);

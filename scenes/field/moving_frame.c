@@ -171,7 +171,6 @@ static struct gm_panel *add(struct gm_picture *picture, const char *title, const
 {
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, title);
     panel->axes = true;
-    panel->title_role = GM_INK;
     panel->x = (struct gm_axis){.label = x, .low = INFINITY, .high = -INFINITY};
     panel->y = (struct gm_axis){.label = y, .low = INFINITY, .high = -INFINITY};
     return panel;

@@ -186,7 +186,6 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
                                      gm_time_text(picture, ahead->run->t, ahead->run->dt),
                                      look->exact ? ", exact in grey" : ""));
     panel->axes = true;
-    panel->title_role = GM_INK;
     panel->x = (struct gm_axis){.label = "x", .low = grid->first, .high = end_of(grid)};
     panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
     const double most = 0.5 * (look->high - look->low);

@@ -241,7 +241,6 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
     }
     gm_range_round(&low, &high, GM_LOG);
     panel->axes = true;
-    panel->title_role = GM_INK;
     /* space for the names after the last point */
     panel->x = (struct gm_axis){.label = "λ", .low = least, .high = most + 1.25 * (most - least)};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low, .high = high};

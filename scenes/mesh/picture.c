@@ -265,7 +265,6 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
                                           : error >= 0 ? "largest error at any node and step"
                                                        : "no error: the file has no exact solution, exact:");
     panel->axes = true;
-    panel->title_role = GM_INK;
     panel->x = panel->y = empty;
     panel->x.label = of_energy ? "Δt" : "elements";
     size_t series = 0;

@@ -460,6 +460,68 @@ static void a_walk_goes_panel_by_panel(void **state)
     assert_false(gm_walk_next(&none));
 }
 
+/* Returns the first text among the marks of a panel that holds `text`. */
+static const struct gm_mark *text_in(const struct gm_panel *panel, const char *text)
+{
+    const struct gm_mark *mark = panel->first;
+    while (mark && (mark->kind != GM_MARK_TEXT || !strstr(mark->text, text))) {
+        mark = mark->next;
+    }
+    assert_non_null(mark);
+    return mark;
+}
+
+/* Paths of three lanes, and fields above paths of two, are side by side. */
+static void panels_of_meshes_are_side_by_side(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("soliton scheme=multiplier-lobatto4,uniform-gauss4,given-gauss4 points=7 show=mesh", 2,
+               &drawn);
+    assert_int_equal(drawn.picture->state_columns, 3);
+    close_drawn(&drawn);
+    open_drawn("soliton scheme=multiplier-lobatto4,uniform-gauss4 points=7", 2, &drawn);
+    assert_int_equal(drawn.picture->state_columns, 2);
+    close_drawn(&drawn);
+}
+
+/* The note of a surface that a scheme has not is in its middle. */
+static void empty_surfaces_have_a_note(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("sine-gordon scheme=lobatto-nystrom4,box points=32 until=4 show=energy-law", 2, &drawn);
+    const struct gm_panel *panel = drawn.picture->first;
+    const struct gm_mark *note = text_in(panel, "the scheme has no such law");
+    assert_true(fabs(note->points[0]) < 1e-12); /* the line is from -20 to 20, and the time from 0 to 4 */
+    assert_true(fabs(note->points[1] - 2) < 1e-12);
+    close_drawn(&drawn);
+}
+
+/* The name of an error is to the right of its first point, and in the panel. */
+static void names_of_errors_are_beside_them(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("poiseuille show=convergence rows=4,8 steps=2", 2, &drawn);
+    const struct gm_panel *panel = drawn.picture->first;
+    size_t names = 0;
+    const double *first = NULL;
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_LINE) {
+            first = mark->points;
+        } else if (mark->kind == GM_MARK_TEXT) {
+            assert_non_null(first);
+            assert_true(mark->points[0] > first[0] && mark->points[0] < 1.1 * first[0] &&
+                        mark->points[1] == first[1]);
+            assert_true(mark->points[0] < panel->x.high);
+            names++;
+        }
+    }
+    assert_true(names > 1);
+    close_drawn(&drawn);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -476,6 +538,9 @@ int main(void)
         cmocka_unit_test(every_curve_over_frames_is_named),
         cmocka_unit_test(a_mesh_file_leaves_no_rows),
         cmocka_unit_test(a_walk_goes_panel_by_panel),
+        cmocka_unit_test(panels_of_meshes_are_side_by_side),
+        cmocka_unit_test(empty_surfaces_have_a_note),
+        cmocka_unit_test(names_of_errors_are_beside_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

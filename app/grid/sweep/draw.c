@@ -451,7 +451,6 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const bool empty = extent.low > extent.high, even = extent.low == extent.high;
     panel->axes = true;
     panel->colour_bar = !empty && !even; /* one number has no scale */
-    panel->title_role = GM_INK;
     panel->note = empty                ? "no run has a number"
                   : even               ? gm_picture_text(picture, "%.6g everywhere", extent.low)
                   : extent.logarithmic ? "colour: log₁₀"
