@@ -221,16 +221,18 @@ static double apart(double complex found, long double complex wanted)
 }
 
 /* Complex functions against those of the C library in more digits, with parts between the smallest normal number and the
-   largest one; a quotient that a number can hold neither vanishes on its way nor overflows, whatever the divisor. */
+   largest one, and quotients of smaller ones, too; a quotient that a number can hold neither vanishes on its way nor
+   overflows, whatever the divisor. */
 static void complex_functions(void **unused)
 {
     (void)unused;
-    static const double sizes[] = {0, DBL_MIN, 1e-200, 1e-30, 0.75, 1, 3, 1e30, 1e200, DBL_MAX / 2, DBL_MAX};
+    static const double sizes[] = {0, 1e-310, DBL_MIN, 1e-200, 1e-30,       0.75,
+                                   1, 3,      1e30,    1e200,  DBL_MAX / 2, DBL_MAX};
     enum { COUNT = sizeof sizes / sizeof *sizes, ALL = COUNT * COUNT };
     for (size_t i = 1; i < ALL; i++) {
         const double a = sizes[i % COUNT] * (i % 2 ? 1 : -1), b = sizes[i / COUNT] * (i % 3 ? 1 : -1);
         const double complex x = a + I * b;
-        if (gm_cabs(x) < DBL_MAX / 4) {
+        if (gm_cabs(x) >= DBL_MIN && gm_cabs(x) < DBL_MAX / 4) {
             assert_true(apart(gm_csqrt(x), csqrtl(x)) < 5e-16);
             assert_true(apart(gm_csqrt(x) + 1, csqrtl(x) + 1) < 5e-16); /* the same of the two roots */
         }
