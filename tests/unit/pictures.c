@@ -16,6 +16,7 @@
 #include "core/basics.h"
 #include "scenes/common/graph.h"
 #include "scenes/flow/room_scene.h"
+#include "scenes/mesh/observed.h"
 #include "tests/common/layout_faults.h"
 
 enum { MOST_LANES = 24, SCHEMES = 3 /* without a list, as render shows them */ };
@@ -522,6 +523,57 @@ static void names_of_errors_are_beside_them(void **state)
     close_drawn(&drawn);
 }
 
+/* Margins around a room are parts of its size, wherever it is. */
+static void rooms_have_their_size_anywhere(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("room rows=10 columns=14 tracers=0", 1, &drawn);
+    const struct gm_complex *complex = gm_flow_of(&drawn.lanes[0]->problem)->complex;
+    double heights[2];
+    for (size_t k = 0; k < 2; k++) {
+        struct gm_picture *picture = gm_picture_open();
+        gm_lanes_draw((const struct gm_lane *const *)drawn.lanes, 1, picture);
+        heights[k] = picture->first->y.high - picture->first->y.low;
+        gm_picture_close(picture);
+        for (size_t v = 0; v < complex->vertices; v++) {
+            complex->point[2 * v + 1] += 50;
+        }
+    }
+    assert_true(heights[0] > 1 && fabs(heights[1] - heights[0]) < 1e-9);
+    close_drawn(&drawn);
+}
+
+/* The distance from a run on another mesh, whose field is linear between its nodes and its ends, when the soliton is at
+   its right end. */
+static void meshes_are_compared_up_to_their_ends(void **state)
+{
+    (void)state;
+    enum { COARSE = 5, FINE = 15 };
+    struct drawn drawn;
+    open_drawn("soliton scheme=uniform-gauss4 length=4 points=15,5", 40, &drawn);
+    const double *fine = gm_run_state(drawn.lanes[0]->run), *coarse = gm_run_state(drawn.lanes[1]->run);
+    const struct gm_view view = gm_lane_view(drawn.lanes[1]);
+    const struct gm_mesh mesh = gm_mesh_of(&view);
+    double u[COARSE + 2] = {mesh.left}, x[COARSE + 2] = {mesh.first}, largest = 0;
+    memcpy(u + 1, coarse, COARSE * sizeof *u);
+    memcpy(x + 1, coarse + COARSE, COARSE * sizeof *x);
+    u[COARSE + 1] = mesh.right;
+    x[COARSE + 1] = mesh.first + mesh.length;
+    for (size_t k = 0; k < FINE; k++) {
+        const double here = fine[FINE + k];
+        for (size_t i = 0; i < COARSE + 1; i++) {
+            if (here >= x[i] && here <= x[i + 1]) {
+                const double share = (here - x[i]) / (x[i + 1] - x[i]);
+                largest = fmax(largest, fabs(fine[k] - (1 - share) * u[i] - share * u[i + 1]));
+            }
+        }
+    }
+    assert_true(largest > 0.01);
+    assert_true(fabs(gm_mesh_distance(drawn.lanes[0], drawn.lanes[1]) - largest) < 1e-12);
+    close_drawn(&drawn);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -541,6 +593,8 @@ int main(void)
         cmocka_unit_test(panels_of_meshes_are_side_by_side),
         cmocka_unit_test(empty_surfaces_have_a_note),
         cmocka_unit_test(names_of_errors_are_beside_them),
+        cmocka_unit_test(rooms_have_their_size_anywhere),
+        cmocka_unit_test(meshes_are_compared_up_to_their_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -229,12 +229,39 @@ static void test_surfaces(void **state)
     }
 }
 
+/* A surface away from z = 0 has the scale that it has there. */
+static void test_raised_surface(void **state)
+{
+    (void)state;
+    struct gm_triangulation_fault fault;
+    struct gm_triangulation mesh;
+    struct gm_panel shown[2];
+    assert_true(gm_generator_open("torus", (const double[]){2, 0.8, 24}, 3, GM_STAR_AUTO, &mesh, &fault));
+    struct gm_picture *picture = gm_picture_open();
+    for (size_t k = 0; k < 2; k++) {
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+        struct gm_form_sheet sheet;
+        gm_form_sheet_make(picture, panel, mesh.complex, &(struct gm_camera){.elevation = 20, .zoom = 1}, 0,
+                           &sheet);
+        shown[k] = *panel;
+        for (size_t v = 0; v < mesh.complex->vertices; v++) {
+            mesh.complex->point[3 * v + 2] += 5;
+        }
+    }
+    assert_near(shown[0].x.high - shown[0].x.low, shown[1].x.high - shown[1].x.low);
+    assert_near(shown[0].y.high - shown[0].y.low, shown[1].y.high - shown[1].y.low);
+    assert_near(shown[0].y.low + 5 * cos(20 * M_PI / 180), shown[1].y.low);
+    gm_picture_close(picture);
+    gm_triangulation_close(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_projection),  cmocka_unit_test(test_turn),  cmocka_unit_test(test_hidden),
-        cmocka_unit_test(test_hidden_line), cmocka_unit_test(test_depth), cmocka_unit_test(test_fit),
-        cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_projection), cmocka_unit_test(test_turn),
+        cmocka_unit_test(test_hidden),     cmocka_unit_test(test_hidden_line),
+        cmocka_unit_test(test_depth),      cmocka_unit_test(test_fit),
+        cmocka_unit_test(test_surfaces),   cmocka_unit_test(test_raised_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
