@@ -561,6 +561,33 @@ static void errors_of_a_small_momentum_are_absolute(void **unused)
     gm_lane_close(lane);
 }
 
+/* The earlier schemes of a lane are in the name that tells it from others: its colour's, or else its panel's. */
+static void switches_are_in_one_name(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *panel, *colour, *panel_after, *colour_after;
+    } rows[] = {
+        {"", "", "RK4, after Verlet", ""},
+        {"e = 0.5", "", "RK4, e = 0.5, after Verlet", ""},
+        {"", "Verlet, Δt = 0.1", "", "RK4, Δt = 0.1, after Verlet"},
+        {"e = 0.5", "Verlet, Δt = 0.1", "e = 0.5", "RK4, Δt = 0.1, after Verlet"},
+    };
+    struct gm_lane *lane = test_lane("kepler scheme=verlet dt=0.1");
+    char sentence[GM_MESSAGE];
+    gm_lane_to(lane, 5, 1e9);
+    assert_true(gm_lane_switch(lane, gm_scheme_find("rk4"), sentence));
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_shown named = {0};
+        snprintf(named.panel_name, sizeof named.panel_name, "%s", rows[i].panel);
+        snprintf(named.colour_name, sizeof named.colour_name, "%s", rows[i].colour);
+        gm_lane_show(lane, &named);
+        assert_string_equal(lane->shown.panel_name, rows[i].panel_after);
+        assert_string_equal(lane->shown.colour_name, rows[i].colour_after);
+    }
+    gm_lane_close(lane);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -577,6 +604,7 @@ int main(void)
         cmocka_unit_test(thinned_records_are_shown_at_every_step),
         cmocka_unit_test(stops_together),
         cmocka_unit_test(tracks_know_no_calls),
+        cmocka_unit_test(switches_are_in_one_name),
         cmocka_unit_test(laws_of_a_variable_mesh),
         cmocka_unit_test(errors_of_a_small_momentum_are_absolute),
     };
