@@ -149,12 +149,27 @@ static void constraints_and_momentum_stay(void **unused)
     untype(&typed);
 }
 
+/* A problem without an action has no such field: none of its rates is a number. */
+static void no_action_has_no_field(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    type(&typed, "rate: x = y\nrate: y = -x - y^3\nstart: x = 1, y = 0\n");
+    double rates[] = {1, 2, 3, 4, 5, 6};
+    gm_manifold_field(&typed.problem, (const double[]){1, 2, 3, 4, 5, 6}, rates, 3);
+    for (size_t i = 0; i < GM_COUNT(rates); i++) {
+        assert_true(isnan(rates[i]));
+    }
+    untype(&typed);
+}
+
 int main(int count, char **words)
 {
     const bool all = count > 1 && strcmp(words[1], "all") == 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(by_elliptic_functions),
         cmocka_unit_test(in_angles),
+        cmocka_unit_test(no_action_has_no_field),
         cmocka_unit_test(constraints_and_momentum_stay),
     };
     const struct CMUnitTest long_ones[] = {cmocka_unit_test(constraints_and_momentum_stay)};

@@ -10,9 +10,11 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <gsl/gsl_errno.h>
 
 #include "core/arena.h"
 #include "core/basics.h"
+#include "core/ode/problems/problems.h"
 #include "core/schemes.h"
 #include "core/theory/certify.h"
 #include "core/theory/polynomial.h"
@@ -480,6 +482,55 @@ static void lyndon_words(void **unused)
     assert_true(splittings >= 15);
 }
 
+/* The exponentials of a wide ball are within its bound. */
+static void wide_balls_hold_their_exponentials(void **unused)
+{
+    (void)unused;
+    for (int k = -4; k <= 4; k++) {
+        struct gm_ball wide = gm_ball_of(k / 2.);
+        wide.radius = 1;
+        const struct gm_ball found = gm_ball_exp(wide);
+        for (int j = -1; j <= 1; j++) {
+            assert_true(fabs(exp(k / 2. + j) - gm_ball_midpoint(found)) < found.radius);
+        }
+        assert_true(found.radius < 4 * exp(k / 2.)); /* the slope is e times the exponential at most */
+    }
+}
+
+/* Verlet with the step turned around comes back; from an end that was pushed it comes back elsewhere. */
+static void trials_turn_where_they_are_pushed(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings settings;
+    const struct gm_trial trial = {&gm_problem_oscillator, gm_scheme_find("verlet"), &settings, 0.1, 7};
+    const double start[] = {1, 0}, push = 0.125;
+    double back[2], pushed[2];
+    assert_int_equal(gm_problem_oscillator.n, 2);
+    assert_true(gm_trial_turn(&trial, start, false, 0, back));
+    assert_true(gm_trial_turn(&trial, start, false, push, pushed));
+    assert_true(fabs(back[0] - 1) < 1e-14 && fabs(back[1]) < 1e-14);
+    /* linear: what comes back of the push alone; its length changes by less than the square of the step */
+    const double moved = hypot(pushed[0] - back[0], pushed[1] - back[1]);
+    assert_true(fabs(moved - push) < 0.01 * push);
+}
+
+static int small_cosine(double t, const double *y, double *rate, void *size)
+{
+    (void)y;
+    rate[0] = *(const double *)size * 40 * cos(40 * t);
+    return GSL_SUCCESS;
+}
+
+/* Solutions far below 1 have as many digits as others, from a start that is 0, too. */
+static void small_solutions_are_exact(void **unused)
+{
+    (void)unused;
+    double size = 1e-12, y = 0;
+    const gsl_odeiv2_system equations = {small_cosine, NULL, 1, &size};
+    assert_true(gm_certify_solve(&equations, 1e-10, 2, &y));
+    assert_true(fabs(y - size * sin(80)) < 1e-8 * size);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -495,6 +546,9 @@ int main(void)
         cmocka_unit_test(stability),
         cmocka_unit_test(stability_of_decimals),
         cmocka_unit_test(wrong_claims),
+        cmocka_unit_test(wide_balls_hold_their_exponentials),
+        cmocka_unit_test(trials_turn_where_they_are_pushed),
+        cmocka_unit_test(small_solutions_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -531,6 +531,34 @@ static void matrices_are_skew(void **unused)
     }
 }
 
+/* The second derivatives of a form are the slopes of its gradient, and all of them are written. */
+static void hessians_are_slopes_of_gradients(void **unused)
+{
+    (void)unused;
+    const struct gm_kdv kdv = {.eta = 1.3, .mu = 0.7};
+    const struct gm_form *form = gm_field_of(&gm_problem_kdv)->form;
+    const size_t d = form->dimension;
+    const double h = 1e-4;
+    double hessian[GM_LARGEST_FORM * GM_LARGEST_FORM], s[GM_LARGEST_FORM];
+    for (size_t i = 0; i < d * d; i++) {
+        hessian[i] = 7; /* what was there before */
+        s[i % d] = 0.3 + 0.2 * (double)(i % d);
+    }
+    form->hessians(&kdv, s, hessian, 1);
+    for (size_t column = 0; column < d; column++) {
+        double left[GM_LARGEST_FORM], right[GM_LARGEST_FORM];
+        const double at = s[column];
+        s[column] = at - h;
+        form->gradients(&kdv, s, left, 1);
+        s[column] = at + h;
+        form->gradients(&kdv, s, right, 1);
+        s[column] = at;
+        for (size_t i = 0; i < d; i++) {
+            assert_true(fabs(hessian[i * d + column] - (right[i] - left[i]) / (2 * h)) < 1e-8);
+        }
+    }
+}
+
 /* Central differences of order 8. */
 static double slope(double (*f)(double at, const void *with), double at, const void *with, double h)
 {
@@ -664,6 +692,7 @@ int main(void)
         cmocka_unit_test(slopes_are_those_of_the_scheme),
         cmocka_unit_test(dispersive_levels_agree),
         cmocka_unit_test(matrices_are_skew),
+        cmocka_unit_test(hessians_are_slopes_of_gradients),
     };
     reference_open("waves.txt");
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
