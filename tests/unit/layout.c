@@ -666,6 +666,38 @@ static void bars_point_at_what_is_beyond(void **state)
     }
 }
 
+/* A note that is wider than the frame is broken where both lines end within the surface, if it can be: not where they
+   would fit into the frame from its left end. */
+static void notes_are_broken_beside_their_place(void **unused)
+{
+    (void)unused;
+    size_t broken = 0;
+    for (double width = 150; width <= 700; width *= 1.03) {
+        for (double at = -2; at < 1; at += 0.125) {
+            struct gm_metrics metrics = metrics_of(width, 400);
+            metrics.self = &metrics;
+            struct gm_picture *picture = picture_of(1, 0, false, false);
+            picture->first->axes = true;
+            picture->first->equal = false;
+            gm_mark_text(picture, picture->first, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, at, 0,
+                         GM_ANCHOR_LEFT, "aaaaa bbbbb ccccc ddddd");
+            const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+            const struct gm_axes *axes = &layout->frames[0];
+            const double space = metrics.width - 0.3 * metrics.line[GM_TEXT_TICK] - gm_axes_x(axes, at);
+            const double two = metrics.measure(&metrics, GM_TEXT_TICK, "aaaaa bbbbb"),
+                         three = metrics.measure(&metrics, GM_TEXT_TICK, "aaaaa bbbbb ccccc"),
+                         all = metrics.measure(&metrics, GM_TEXT_TICK, "aaaaa bbbbb ccccc ddddd");
+            if (all > axes->box.width && three <= axes->box.width && two <= space && three > space) {
+                assert_non_null(find_label(layout, "aaaaa bbbbb"));
+                assert_non_null(find_label(layout, "ccccc ddddd"));
+                broken++;
+            }
+            gm_picture_close(picture);
+        }
+    }
+    assert_true(broken > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -689,6 +721,7 @@ int main(void)
         cmocka_unit_test(names_keep_off_the_axes),
         cmocka_unit_test(bars_point_at_what_is_beyond),
         cmocka_unit_test(notes_stay_in_their_frame),
+        cmocka_unit_test(notes_are_broken_beside_their_place),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
         cmocka_unit_test(a_bar_of_one_panel_keeps_off_the_next),
     };
