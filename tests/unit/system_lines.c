@@ -436,6 +436,11 @@ static void studies_are_those_of_the_file(void **unused)
     scene = scene_of(OSCILLATOR "work: ; halvings 1\n");
     assert_int_equal(scene->work->halvings, 1);
     gm_system_scene_close(scene);
+    /* without a line, a field is followed as long as its lanes are */
+    scene = scene_of("field: u\nV: u^2/2\nstart: u = exp(-x^2), u_t = 0\n");
+    assert_int_equal(scene->work->halvings, 5);
+    assert_string_equal(scene->work->arguments, "");
+    gm_system_scene_close(scene);
     scene = scene_of(OSCILLATOR "stability: until=9; k 1, 2; steps usual; schemes usual\n");
     assert_true(scene->stability->step_count > 2 && !scene->stability->schemes &&
                 !scene->stability->throughout);
