@@ -13,9 +13,11 @@
 #include "core/basics.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/indicators/growth.h"
+#include "core/ode/indicators/stiffness.h"
 #include "core/ode/indicators/tangent.h"
 #include "core/ode/kernel/loops.h"
 #include "core/schemes.h"
+#include "tests/common/typed.h"
 #include "tests/problems/problems.h"
 
 enum { STEPS = 3, MOST = 2 * GM_SUBJECT_COMPONENTS };
@@ -312,11 +314,64 @@ static void known_numbers(void **unused)
     }
 }
 
+/* ln of the volume of a friction that depends on the place: the orbit's third component has the same rate. */
+static void volumes_follow_the_divergence(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    type(&typed, "rate: x = y\nrate: y = -sin(x) - 0.2*(1 + x^2)*y\nrate: w = -0.2*(1 + x^2)\n"
+                 "start: x = 1.5, y = 0, w = 0\n");
+    struct gm_run *run = gm_run_open(&typed.problem, gm_scheme_find("rk4"), &settings, 0, 0.02, typed.start);
+    assert_non_null(run);
+    struct gm_tangent *tangent = gm_tangent_open(run);
+    assert_non_null(tangent);
+    double square[9], v[3] = {1, 0, 0};
+    gm_tangent_follow_volume(tangent, square);
+    for (int i = 0; i < 100; i++) {
+        assert_true(gm_tangent_step(tangent, v, 1));
+    }
+    const double sum = gm_run_state(run)[2];
+    assert_true(sum < -0.5 && fabs(gm_tangent_volume(tangent) - sum) < 1e-7);
+    gm_tangent_close(tangent);
+    gm_run_close(run);
+    untype(&typed);
+}
+
+/* A component that decays a thousand times faster than the others move is stiff, unless they move as fast. */
+static void what_is_slow_beside_a_decay_is_stiff(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        double fast, slow; /* about that many per unit of time */
+        bool stiff;
+    } rows[] = {
+        {"rate: x = -1e4*(x - y)\nrate: y = z\nrate: z = -y\nstart: x = 1, y = 1, z = 0.5\n", 1e4, 0.5, true},
+        {"rate: x = -1e4*(x - y)\nrate: y = 1e3*z\nrate: z = -1e3*y\nstart: x = 1, y = 1, z = 0.5\n", 1e4,
+         500, false},
+    };
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct typed typed;
+        type(&typed, rows[i].text);
+        const struct gm_stiffness found = gm_stiffness_of(&typed.problem, typed.start, 100);
+        assert_true(fabs(found.fast - rows[i].fast) < 1e-6 * rows[i].fast);
+        assert_true(found.slow > rows[i].slow / 3 && found.slow < 3 * rows[i].slow);
+        assert_int_equal(found.stiff, rows[i].stiff);
+        untype(&typed);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_scheme),  cmocka_unit_test(wrong_ones),     cmocka_unit_test(same_orbit),
-        cmocka_unit_test(steps_at_once), cmocka_unit_test(known_exponent), cmocka_unit_test(known_numbers),
+        cmocka_unit_test(every_scheme),
+        cmocka_unit_test(wrong_ones),
+        cmocka_unit_test(same_orbit),
+        cmocka_unit_test(steps_at_once),
+        cmocka_unit_test(known_exponent),
+        cmocka_unit_test(known_numbers),
+        cmocka_unit_test(volumes_follow_the_divergence),
+        cmocka_unit_test(what_is_slow_beside_a_decay_is_stiff),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
