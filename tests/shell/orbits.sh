@@ -123,6 +123,8 @@ holds 'near(d["start"][0], 2.0086198609, 1e-9) and near(d["multipliers"][0][0], 
 # a start inside of the cycle comes back after two turns, which are not its period
 status 0 orbit van-der-pol --json
 holds 'near(d["period"], 6.663286859323133, 1e-9) and near(d["multipliers"][1][0], 8.5969506360e-4, 1e-12)'
+# its steps are halved from 64 in a period, whatever dt is
+holds 'd["steps"] in [64 << k for k in range(13)]'
 printf 'rate: x = 1 + x^2*y - 4*x, y = 3*x - x^2*y\nstart: x = 2, y = 1\n' >brusselator.system
 status 0 orbit ./brusselator.system --json
 holds 'near(d["period"], 7.15691992118, 1e-9) and near(d["multipliers"][1][0], 2.516375799e-4, 1e-12)'
