@@ -18,6 +18,7 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "core/theory/certify.h"
 #include "tests/common/typed.h"
 
 static const struct gm_settings plain = {0};
@@ -163,13 +164,42 @@ static void no_action_has_no_field(void **unused)
     untype(&typed);
 }
 
+/* A symplectic scheme has to be one where the motion is Hamiltonian: with constraints, if it conserves them. */
+static void symplectic_where_constraints_hold(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *scheme;
+        bool claimed;
+    } rows[] = {
+        {"coordinates: q\nH: p_q^2/2 - cos(q)\nstart: q = 0.5, p_q = 0.2\n", "midpoint", true},
+        {"coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nconstraint: (x^2 + y^2 - 1)/2\n"
+         "start: x = 0.6, y = -0.8, p_x = 0.4, p_y = 0.3\n",
+         "midpoint", false},
+        {"coordinates: x y\nH: (p_x^2 + p_y^2)/2 + y\nconstraint: (x^2 + y^2 - 1)/2\n"
+         "start: x = 0.6, y = -0.8, p_x = 0.4, p_y = 0.3\n",
+         "rattle2", true},
+    };
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct typed typed;
+        type(&typed, rows[i].text);
+        const struct gm_certified_system system = {
+            .problem = &typed.problem, .start = typed.start, .dt = 0.1};
+        struct gm_certificate certificate =
+            gm_certify_on(gm_scheme_find_for(rows[i].scheme, &typed.problem), &system);
+        const struct gm_verdict *verdict = gm_certificate_claim(&certificate, GM_SYMPLECTIC);
+        assert_int_equal(verdict->claimed, rows[i].claimed);
+        assert_true(verdict->holds || !rows[i].claimed);
+        untype(&typed);
+    }
+}
+
 int main(int count, char **words)
 {
     const bool all = count > 1 && strcmp(words[1], "all") == 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_elliptic_functions),
-        cmocka_unit_test(in_angles),
-        cmocka_unit_test(no_action_has_no_field),
+        cmocka_unit_test(by_elliptic_functions),         cmocka_unit_test(in_angles),
+        cmocka_unit_test(no_action_has_no_field),        cmocka_unit_test(symplectic_where_constraints_hold),
         cmocka_unit_test(constraints_and_momentum_stay),
     };
     const struct CMUnitTest long_ones[] = {cmocka_unit_test(constraints_and_momentum_stay)};
