@@ -137,6 +137,10 @@ grep -q 'most that of t\[t\]' out || fail "weights exchanged: $(cat out)"
 printf 'kind: runge-kutta\na: 1, 2\nb: 1\n' >wrong.scheme
 refused 1 'wrong.scheme:2:4: a has 1 rows of 2 entries: it is not square' certify wrong.scheme
 [ "$(sed -n 2p err)" = '    a: 1, 2' ] && [ "$(sed -n 3p err)" = '       ^' ] || fail "no caret: $(cat err)"
+# a column is one of the words of the command, and not of a file
+printf 'kind: projected\nbase: rk4\ninvariants: far\n' >far.scheme
+refused 1 'an invariant far (.*, \.\.\.); geomint list kepler' run kepler scheme=./far.scheme steps=1
+refused 1 'an invariant far (.*, \.\.\.), in column 28; geomint' run kepler 'scheme=projected(rk4; invariants: far)' steps=1
 refused 1 'scheme, column 21: the steps sum to 2, not to 1' run disc 'scheme=composition(verlet; 1, 1)' until=1
 [ "$(sed -n 3p err)" = '                        ^' ] || fail "no caret: $(cat err)"
 printf 'kind: adjoint\nbase: me.scheme\n' >me.scheme
