@@ -588,6 +588,30 @@ static void switches_are_in_one_name(void **unused)
     gm_lane_close(lane);
 }
 
+/* The vertices of a room's outlet are of the kind that is chosen. */
+static void outlets_are_chosen(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words;
+        enum gm_vertex_kind kind;
+    } rows[] = {{"room rows=10 columns=14 tracers=0", GM_VERTEX_SOFT},
+                {"room rows=10 columns=14 tracers=0 outlet=soft", GM_VERTEX_SOFT},
+                {"room rows=10 columns=14 tracers=0 outlet=free", GM_VERTEX_OPEN}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_lane *lane = test_lane(rows[i].words);
+        const struct gm_flow *flow = gm_flow_of(&lane->problem);
+        size_t counts[2] = {0};
+        for (size_t v = 0; v < flow->complex->vertices; v++) {
+            counts[0] += flow->kind[v] == GM_VERTEX_SOFT;
+            counts[1] += flow->kind[v] == GM_VERTEX_OPEN;
+        }
+        const size_t open = rows[i].kind == GM_VERTEX_OPEN;
+        assert_true(counts[open] > 0 && counts[1 - open] == 0);
+        gm_lane_close(lane);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -605,6 +629,7 @@ int main(void)
         cmocka_unit_test(stops_together),
         cmocka_unit_test(tracks_know_no_calls),
         cmocka_unit_test(switches_are_in_one_name),
+        cmocka_unit_test(outlets_are_chosen),
         cmocka_unit_test(laws_of_a_variable_mesh),
         cmocka_unit_test(errors_of_a_small_momentum_are_absolute),
     };
