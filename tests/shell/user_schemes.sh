@@ -137,6 +137,10 @@ grep -q 'most that of t\[t\]' out || fail "weights exchanged: $(cat out)"
 printf 'kind: runge-kutta\na: 1, 2\nb: 1\n' >wrong.scheme
 refused 1 'wrong.scheme:2:4: a has 1 rows of 2 entries: it is not square' certify wrong.scheme
 [ "$(sed -n 2p err)" = '    a: 1, 2' ] && [ "$(sed -n 3p err)" = '       ^' ] || fail "no caret: $(cat err)"
+for order in 0 21 2x x 2.5; do
+    printf 'kind: runge-kutta\na: 0\nb: 1\norder: %s\n' "$order" >wrong.scheme
+    refused 1 "wrong.scheme:4:8: order: is a whole number from 1 to 20" certify wrong.scheme
+done
 # a column is one of the words of the command, and not of a file
 printf 'kind: projected\nbase: rk4\ninvariants: far\n' >far.scheme
 refused 1 'an invariant far (.*, \.\.\.); geomint list kepler' run kepler scheme=./far.scheme steps=1
