@@ -310,6 +310,11 @@ static void lanes(void **unused)
     assert_string_equal(message, "zip=yes pairs lists of equal length; dt= has 3 values, not 2");
     assert_false(gm_request_parse(&request, 3, twice, GM_RENDER_SCHEMES, message));
     assert_string_equal(message, "dt= is given twice");
+    char *formless[] = {"kepler", "=5"}, *bare[] = {"kepler", "foo"};
+    assert_false(gm_request_parse(&request, 2, formless, GM_RUN_SCHEMES, message));
+    assert_string_equal(message, "\"=5\" is not of the form key=value");
+    assert_false(gm_request_parse(&request, 2, bare, GM_RUN_SCHEMES, message));
+    assert_string_equal(message, "\"foo\" is not of the form key=value");
     /* a run takes the first scheme alone */
     assert_true(gm_request_parse(&request, 1, longer, GM_RUN_SCHEMES, message));
     assert_string_equal(request.arguments, "kdv scheme=box");
