@@ -18,6 +18,7 @@
 #include "core/field/families/laws/laws.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
+#include "core/quantity.h"
 #include "core/schemes.h"
 #include "scenes/common/lane_pack.h"
 #include "tests/common/lane.h"
@@ -612,6 +613,30 @@ static void outlets_are_chosen(void **unused)
     }
 }
 
+/* The names of a field's arrays: those of its parts, and of a second level only where a state has one. */
+static void states_have_their_arrays(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words, *names;
+    } rows[] = {{"burgers dx=0.1", "grid u"},
+                {"nls points=16", "grid psi_re psi_im"},
+                {"wave points=16", "grid u u_other other_time"},
+                {"kdv points=16 scheme=zabusky-kruskal", "grid u u_other other_time"}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_lane *lane = test_lane(rows[i].words);
+        struct gm_quantity quantities[GM_QUANTITIES];
+        const size_t count = gm_quantities(lane->run, quantities);
+        char names[200] = "";
+        for (size_t k = 0; k < count; k++) {
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", k > 0 ? " " : "",
+                     quantities[k].name);
+        }
+        assert_string_equal(names, rows[i].names);
+        gm_lane_close(lane);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -630,6 +655,7 @@ int main(void)
         cmocka_unit_test(tracks_know_no_calls),
         cmocka_unit_test(switches_are_in_one_name),
         cmocka_unit_test(outlets_are_chosen),
+        cmocka_unit_test(states_have_their_arrays),
         cmocka_unit_test(laws_of_a_variable_mesh),
         cmocka_unit_test(errors_of_a_small_momentum_are_absolute),
     };
