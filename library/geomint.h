@@ -77,7 +77,7 @@ int geomint_status(const geomint *handle);
 const char *geomint_message(const geomint *handle);
 
 /* Returns a description of the handle as JSON: an array with an object for each lane (scene, scheme, parameters,
-   units, status, t, steps, evaluations); for a scheme or a certificate an object, as `geomint list` and
+   units, status, t, steps, evaluations, engine); for a scheme or a certificate an object, as `geomint list` and
    `geomint certify` print it. The text is valid until the next call of this function. Returns NULL when out of
    memory, or without anything to describe. */
 const char *geomint_text(geomint *handle);

@@ -9,6 +9,7 @@
 
 #include "app/base/arguments.h"
 #include "app/data/save.h"
+#include "app/native/engine.h"
 #include "app/output/row.h"
 #include "core/arena.h"
 #include "core/memory.h"
@@ -604,6 +605,9 @@ static bool put_lane(FILE *stream, const struct gm_drive *drive)
         struct gm_row row = {.stream = stream, .form = GM_ROW_JSON, .begun = true};
         gm_row_put(&row, "warning %s, evaluations %.0f, solves %.0f", warning,
                    gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
+        if (gm_engine_of(drive->lane)) {
+            gm_row_put(&row, "engine %s", gm_engine_of(drive->lane));
+        }
         fputc('}', stream);
     }
     free(meta);

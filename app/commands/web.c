@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/grid/grid.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
 #include "app/tours/tour.h"
@@ -25,6 +26,7 @@ struct lesson {
     const struct gm_options *options;
     const char *title;
     const struct gm_tour *tour;
+    const struct gm_file *file;       /* of the tour */
     const struct gm_arguments *words; /* of the view */
     struct gm_arguments *files;       /* path, name and text of each */
 };
@@ -37,17 +39,13 @@ static void see(const char *path)
     gm_arguments_add(seen, path);
 }
 
-/* The word without the folders of its file, which is added to the page. */
-static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
+/* The name of a file, which is added to the page. */
+static const char *take(const struct lesson *lesson, const struct gm_file *file)
 {
     char message[GM_MESSAGE];
-    struct gm_file file;
     size_t length;
-    if (!gm_file_find(kind, word, &file) || file.built_in) {
-        return word;
-    }
-    const char *name = basename(file.path);
-    char *text = gm_file_read(&file, LARGEST_FILE, &length, message);
+    const char *name = basename(file->path);
+    char *text = gm_file_read(file, LARGEST_FILE, &length, message);
     gm_command_end_if(lesson->options, !text, GM_EXIT_FILE, "%s", message);
     gm_arena_keep(lesson->options->arena, text, free);
     for (int i = 0; i < lesson->files->count; i += 3) {
@@ -57,10 +55,17 @@ static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind
             return gm_arena_print(lesson->options->arena, "%s", name);
         }
     }
-    gm_arguments_add(lesson->files, file.path);
+    gm_arguments_add(lesson->files, file->path);
     gm_arguments_add(lesson->files, name);
     gm_arguments_add(lesson->files, text);
     return gm_arena_print(lesson->options->arena, "%s", name);
+}
+
+/* The word without the folders of its file, which is added to the page. */
+static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
+{
+    struct gm_file file;
+    return gm_file_find(kind, word, &file) && !file.built_in ? take(lesson, &file) : word;
 }
 
 /* The word with the names of its schemes' files, which are added to the page. */
@@ -94,15 +99,20 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
 
 static void put_tour(const struct lesson *lesson, struct gm_row *view)
 {
-    gm_row_put(view, "tour %s", take_file(lesson, GM_FILE_TOUR, lesson->options->tour));
+    gm_row_put(view, "tour %s", lesson->file->built_in ? lesson->tour->name : take(lesson, lesson->file));
     struct gm_row steps = gm_row_open(view, "steps", ']');
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];
         struct gm_row row = gm_row_open(&steps, NULL, '}');
         gm_row_put(&row, "title %s, say %s, ask %s, exercise %d, hint %s, answer %s", step->title, step->say,
                    step->ask, step->expectation_count > 0, step->hint, step->answer);
-        gm_row_put(&row, "watch %s, try %s, study %s, until %.17g, seconds %.17g", step->watch, step->attempt,
-                   step->study_words, step->until, step->seconds);
+        gm_row_put(&row, "watch %s, try %s, until %.17g, seconds %.17g", step->watch, step->attempt,
+                   step->until, step->seconds);
+        if (step->study) {
+            const char *study = gm_study_rows[step->study]->name;
+            gm_row_put(&row, "study %s",
+                       gm_arena_print(lesson->options->arena, "%s%s", study, step->study_words));
+        }
         if (step->show) {
             put_words(lesson, &row, "show", gm_arguments_of(lesson->options->arena, step->show));
         }
@@ -228,6 +238,7 @@ int gm_command_web(const struct gm_options *options)
     if (options->tour) {
         read_tour(options, &file, tour);
         lesson.tour = tour;
+        lesson.file = &file;
     } else if (lesson.words->count > 0) {
         request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
         scene = request->scene;

@@ -213,6 +213,18 @@ static const struct gm_parameter *first_changed(const struct gm_tour_step *step,
     return NULL;
 }
 
+/* Returns true if the lane has made no step with its dt and its scheme. */
+static bool was_changed_last(const struct gm_request *request, size_t lane, int64_t steps)
+{
+    bool last = false;
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change *change = &request->changes[i];
+        last |= change->lane == lane && change->step >= steps &&
+                (strncmp(change->text, "dt=", 3) == 0 || strncmp(change->text, "scheme=", 7) == 0);
+    }
+    return last;
+}
+
 /* Returns the number of expectations that the lane meets one after the other, all plus 1 if it passes. */
 static size_t grade_lane(const struct gm_tour_step *step, const struct gm_request *request, size_t index,
                          const struct gm_lane *lane, char *sentence)
@@ -224,6 +236,10 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
     if (run->status != GM_OK) {
         gm_failure_sentence(lane, values, sizeof values);
         gm_refuse(sentence, "Not passed: %.100s: %.300s", title, values);
+        return 0;
+    }
+    if (was_changed_last(request, index, run->steps)) {
+        gm_refuse(sentence, "Not passed: %.100s has made no step since its last change.", title);
         return 0;
     }
     /* The next step would lead beyond the end; steps of adaptive schemes are a few dt long. A step that covers half of

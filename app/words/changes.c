@@ -24,27 +24,49 @@ static const char *value_of(const struct gm_request *request, size_t lane, const
                : gm_scheme_word(spec->scheme);
 }
 
-/* One key of the formatted request: the value of every lane, unless all have the standard one. Returns whether they
-   are a list. */
-static bool format_key(FILE *stream, const struct gm_request *request, const struct gm_parameter *row,
-                       const char *standard)
+static bool are_alike(const struct gm_request *request, const struct gm_parameter *row)
 {
     char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
-    bool same = true;
     const char *first = value_of(request, 0, row, room);
+    bool alike = true;
     for (size_t i = 1; i < request->count; i++) {
-        same &= strcmp(first, value_of(request, i, row, text)) == 0;
+        alike &= strcmp(first, value_of(request, i, row, text)) == 0;
     }
-    if (same && standard && strcmp(first, standard) == 0) {
+    return alike;
+}
+
+/* Returns true if no key tells that there are several lanes. */
+static bool are_copies(const struct gm_request *request)
+{
+    bool alike = request->count > 1 && are_alike(request, NULL);
+    for (size_t i = 0; i < request->scene->parameter_count; i++) {
+        const struct gm_parameter *row = &request->scene->parameters[i];
+        alike = alike && (gm_request_idle(request, row->key) || are_alike(request, row));
+    }
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        alike = alike && are_alike(request, &gm_settings_parameters[i]);
+    }
+    return alike;
+}
+
+/* One key of the formatted request: the value of every lane if they differ or are `listed`; else that of all, unless it is
+   the standard one. Returns whether they are a list. */
+static bool format_key(FILE *stream, const struct gm_request *request, const struct gm_parameter *row,
+                       const char *standard, bool listed)
+{
+    char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
+    const char *first = value_of(request, 0, row, room);
+    listed = listed || !are_alike(request, row);
+    if (!listed && standard && strcmp(first, standard) == 0) {
         return false;
     }
     fprintf(stream, " %s=", row ? row->key : "scheme");
     gm_arguments_put(stream, first);
-    for (size_t i = 1; i < request->count && !same; i++) {
+    for (size_t i = 1; i < request->count && listed; i++) {
         fputc(',', stream);
         gm_arguments_put(stream, value_of(request, i, row, text));
     }
-    return !same;
+    return listed;
 }
 
 static bool has_key(const struct gm_arguments *words, const char *key)
@@ -72,17 +94,18 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     gm_arguments_put_scene(stream, request->scene);
-    int lists = format_key(stream, request, NULL, NULL);
+    int lists = format_key(stream, request, NULL, NULL, are_copies(request));
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         const bool always = row->required || has_key(&arguments, row->key);
         if (!gm_request_idle(request, row->key)) {
-            lists += format_key(stream, request, row, always ? NULL : row->standard);
+            lists += format_key(stream, request, row, always ? NULL : row->standard, false);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        lists += format_key(stream, request, row, has_key(&arguments, row->key) ? NULL : row->standard);
+        lists +=
+            format_key(stream, request, row, has_key(&arguments, row->key) ? NULL : row->standard, false);
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);

@@ -270,6 +270,18 @@ static void test_failure(void **state)
     geomint_close(run);
 }
 
+/* Of systems that the build compiled the steps are made by its loops, and of others by the interpreter. */
+static void test_engines(void **state)
+{
+    (void)state;
+    geomint *compiled = OPEN("kepler", "scheme=rk4"),
+            *typed = OPEN("system", "H=p^2/2 - cos(3*q)", "q=1", "p=0");
+    assert_non_null(strstr(geomint_text(compiled), "\"engine\":\"native\""));
+    assert_non_null(strstr(geomint_text(typed), "\"engine\":\"interpreted\""));
+    geomint_close(compiled);
+    geomint_close(typed);
+}
+
 /* A scheme that chooses its steps. */
 static void test_adaptive(void **state)
 {
@@ -430,7 +442,7 @@ int main(void)
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_null),    cmocka_unit_test(test_time),
         cmocka_unit_test(test_numbers),  cmocka_unit_test(test_failure), cmocka_unit_test(test_adaptive),
         cmocka_unit_test(test_threads),  cmocka_unit_test(test_host),    cmocka_unit_test(test_claims),
-        cmocka_unit_test(test_fork),     cmocka_unit_test(test_painter),
+        cmocka_unit_test(test_fork),     cmocka_unit_test(test_painter), cmocka_unit_test(test_engines),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

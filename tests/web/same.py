@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """States and pictures of the library in WebAssembly against the native one: same.py BUILD BUILD_WEB [FONTS [time]].
-Each run of runs.txt must end in the same bits, and each picture have the same pixels as the program's own painter. With the
-word time it measures instead the processor time that runs take in node, and natively (of a build with -Dloops=baseline, which has no wider
-vectors than WebAssembly)."""
+Each run of runs.txt must end in the same bits, made by the same engine, and each picture have the same pixels as the
+program's own painter. With the word time it measures instead the processor time that runs take in node, and natively (of a
+build with -Dloops=baseline, which has no wider vectors than WebAssembly)."""
 import ctypes
 import hashlib
 import json
@@ -22,6 +22,7 @@ handle, size = ctypes.c_void_p, ctypes.c_size_t
 for name, result, arguments in [
     ("open", handle, [ctypes.c_int, handle]),
     ("message", ctypes.c_char_p, [handle]),
+    ("text", ctypes.c_char_p, [handle]),
     ("lanes", size, [handle]),
     ("steps_left", ctypes.c_int64, [handle, size]),
     ("step", ctypes.c_int, [handle, size, ctypes.c_int64]),
@@ -40,7 +41,9 @@ def states(run):
             library.geomint_step(run, lane, left if left > 0 else 1000)
         state = library.geomint_state(run, lane, ctypes.byref(n), ctypes.byref(m))
         sums.append(hashlib.md5(ctypes.string_at(state, 8 * n.value * m.value)).hexdigest())
-    return sums or [library.geomint_message(run).decode()]
+    if not sums:
+        return [library.geomint_message(run).decode()]
+    return sums + [lane.get("engine") for lane in json.loads(library.geomint_text(run))]
 
 
 def picture(run, width, height, scale):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library in WebAssembly, run by node as a page would run it: node states.js GEOMINT.js FONTS [WIDTHxHEIGHTxSCALE]
-// reads lines of words, one JSON array each, runs each to its end, and prints the sums of its states or, with a size, of its
-// picture. With "time" for a size it prints the seconds of processor time that a run took.
+// reads lines of words, one JSON array each, runs each to its end, and prints the sums of its states and its engines or, with
+// a size, the sum of its picture. With "time" for a size it prints the seconds of processor time that a run took.
 const crypto = require('crypto'), fs = require('fs');
 const [, , program, fonts, size] = process.argv;
 delete globalThis.fetch; // emscripten 3.1.6 would take node for a browser
@@ -30,7 +30,7 @@ require(fs.realpathSync(program))({wasmBinary: fs.readFileSync(program.replace(/
             const state = web._geomint_state(handle, lane, shape, shape + 4);
             sums.push(md5(bytes(state, 8 * web.HEAP32[shape / 4] * web.HEAP32[shape / 4 + 1])));
         }
-        return sums;
+        return sums.concat(JSON.parse(web.UTF8ToString(web._geomint_text(handle))).map(lane => lane.engine || null));
     };
     const picture = (handle, width, height, scale) => {
         const rgba = take(4 * width * height);
