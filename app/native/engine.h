@@ -11,11 +11,10 @@
 /* The order is that of the option --engine. */
 enum gm_engine { GM_ENGINE_AUTO, GM_ENGINE_INTERPRETED, GM_ENGINE_NATIVE };
 
-/* Chooses for the whole program, before lanes are opened. Where nothing is chosen, as in the library, lanes take the loops
-   that the build compiled, and no compiler is started. `kernels`: the folder with core/ode and the
-   sources of loops; it is copied. The callback, unless NULL, gets one sentence per reason for which the
-   interpreter stays although native was requested. `interrupted` returns true to wait no longer for a
-   compiler. */
+/* Chooses for the whole program, before lanes are opened. The library never calls this: its lanes take the loops that
+   the build compiled, and no compiler is started. `kernels`: the folder with core/ode and the sources of loops; it is
+   copied. The callback, unless NULL, gets one sentence per reason for which the interpreter stays although native was
+   requested. `interrupted` returns true to wait no longer for a compiler. */
 void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*tell)(const char *sentence),
                       bool (*interrupted)(void));
 

@@ -35,7 +35,7 @@ static bool are_alike(const struct gm_request *request, const struct gm_paramete
     return alike;
 }
 
-/* Returns true if no key tells that there are several lanes. */
+/* Returns true if all lanes have the same values, so that no key is a list. */
 static bool are_copies(const struct gm_request *request)
 {
     bool alike = request->count > 1 && are_alike(request, NULL);

@@ -10,7 +10,7 @@ const colours = [['#0379db', '#83d1ff'], ['#ec5100', '#ffa226'], ['#1aa770', '#7
     ['#7a0102', '#6272fa'], ['#03624a', '#87814a']];
 const most = 6; // lanes
 
-let view = null, schemes = [], words = lesson.words.length > 0 ? lesson.words : ['kepler'], playing = false, speed = 1, chosen = 0, forking = false, started = false;
+let view = null, schemes = [], words = lesson.words.length > 0 ? lesson.words : ['kepler'], playing = false, speed = 1, chosen = 0, scene = '', forking = false, started = false;
 let theme = null; // what was chosen instead of the system's
 
 function make(name, properties, ...inside) {
@@ -25,11 +25,29 @@ function make(name, properties, ...inside) {
 let worker, waiting = new Map(), number = 0, patience;
 
 function ask(name, value) {
-    return new Promise(resolve => {
-        waiting.set(++number, resolve);
+    return new Promise((resolve, reject) => {
+        waiting.set(++number, {resolve, reject});
         worker?.postMessage({id: number, name, value});
         patience = patience || worker && setTimeout(() => complain('The program has been busy for ten seconds. You can wait for it.'), 10000);
     });
+}
+
+// What waited for a program that was ended goes no further, and says nothing.
+const ended = new Error('the program was started again');
+addEventListener('unhandledrejection', event => event.reason === ended && event.preventDefault());
+
+// Gives the orders of a control one at a time: of those that come meanwhile the last one counts.
+function latest(act) {
+    let wanted = null;
+    return async value => {
+        const first = wanted === null;
+        wanted = value;
+        while (first && wanted !== null) {
+            const now = wanted;
+            await act(now).catch(() => { wanted = now; });
+            wanted = wanted === now ? null : wanted;
+        }
+    };
 }
 
 // Shows a sentence and a way to start again.
@@ -43,6 +61,8 @@ function crash(reason) {
     worker.terminate();
     worker = null;
     rest();
+    at('sheet').close(); // what is open there would keep the way on from being used
+    setReady(false);
     complain(`The program has stopped: ${reason}.`);
 }
 
@@ -53,9 +73,15 @@ function rest() {
     patience = null;
 }
 
+// Controls act only if there is a view.
+const setReady = ready => document.querySelectorAll('header, main').forEach(part => { part.inert = !ready; });
+
 async function begin() {
     rest();
+    setReady(false);
+    view = null;
     worker?.terminate();
+    waiting.forEach(({reject}) => reject(ended));
     waiting = new Map();
     const source = URL.createObjectURL(new Blob([at('worker').textContent], {type: 'text/javascript'}));
     worker = new Worker(source);
@@ -65,7 +91,7 @@ async function begin() {
         if (data.crash) {
             crash(data.crash);
         } else if (data.id) {
-            waiting.get(data.id)(data.answer);
+            waiting.get(data.id).resolve(data.answer);
             waiting.delete(data.id);
         } else if (data.stop) {
             stopOfTour();
@@ -74,6 +100,7 @@ async function begin() {
         }
     };
     const {scenes} = await ask('start', {...parts, files: lesson.files});
+    URL.revokeObjectURL(source);
     if (at('scene').length === 0) {
         at('scene').append(make('option', {value: ''}, '…'), ...scenes.map(name => make('option', {value: name}, name)));
     }
@@ -81,8 +108,13 @@ async function begin() {
     const again = started;
     started = true;
     if (again || !await openHash()) {
-        await (at('tour').hidden ? open(words) : goTo(stepNumber));
+        const refused = await (at('tour').hidden ? open(words) : goTo(stepNumber));
+        if (refused) { // the controls need some view
+            await open(['kepler']);
+            say(refused, true);
+        }
     }
+    setReady(true);
 }
 
 // Gives an order of geomint.h, and shows the sentence of its refusal.
@@ -108,7 +140,7 @@ function shape() {
 }
 
 function say(sentence, bad) {
-    const line = make('p', {className: bad ? 'bad' : '', textContent: sentence});
+    const line = make('p', {className: `${bad ? 'bad' : ''} ${sentence.includes('\n') ? 'lines' : ''}`, textContent: sentence});
     at('notice').replaceChildren(line);
     clearTimeout(say.end);
     say.end = setTimeout(() => line.remove(), bad ? 12000 : 7000);
@@ -137,7 +169,6 @@ function show(news) {
 function showAll(late) {
     at('play').textContent = playing ? '❚❚' : '▶';
     at('play').setAttribute('aria-label', playing ? 'pause' : 'play');
-    at('play').setAttribute('aria-pressed', playing);
     at('reverse').setAttribute('aria-pressed', view.backwards);
     at('overlay').setAttribute('aria-pressed', view.overlaid);
     at('clock').textContent = `t = ${digits(view.t)}`;
@@ -164,15 +195,19 @@ function showAll(late) {
     canvas.setAttribute('aria-label', `${view.title}: ${view.lanes.map(lane => lane.title).join(', ')} at t = ${digits(view.t)}`);
 }
 
-// Makes the elements of a list anew only if its description has changed, so that focus and scrolling stay.
+// Makes the elements of a list anew only if its description has changed, so that scrolling stays. The focus stays on the
+// element of the same name, or of the same place.
 function renew(element, description, build) {
     const key = JSON.stringify(description);
     if (element.dataset.of !== key) {
         element.dataset.of = key;
+        const all = () => [...element.querySelectorAll('button:not([hidden]), select, input')], place = all().indexOf(document.activeElement);
+        const nameOf = one => one.id + one.textContent + one.getAttribute('aria-label'), name = place < 0 ? '' : nameOf(document.activeElement);
         element.replaceChildren(...build());
-        return true;
+        if (place >= 0) {
+            (all().find(one => nameOf(one) === name) || all()[Math.min(place, all().length - 1)])?.focus({preventScroll: true});
+        }
     }
-    return false;
 }
 
 // ---- lanes and values ----
@@ -181,9 +216,9 @@ const colour = lane => colours[lane % colours.length][isDark() ? 1 : 0];
 
 function showLanes() {
     const list = view.lanes.map(lane => [lane.title, lane.status, lane.message]);
-    renew(at('lanes'), [list, view.selected, isDark()], () => view.lanes.map((lane, i) => {
+    renew(at('lanes'), [list, isDark()], () => view.lanes.map((lane, i) => {
         const pick = make('button', {className: 'lane', onclick: () => select(i), title: 'choose this lane (1 to 6)',
-            data: {'aria-pressed': i === view.selected, style: `--colour: ${colour(i)}`}}, lane.title);
+            data: {style: `--colour: ${colour(i)}`}}, lane.title);
         if (lane.status !== 'ok') {
             pick.append(make('span', {className: 'state'}, lane.message || lane.status));
         }
@@ -191,6 +226,7 @@ function showLanes() {
             make('button', {textContent: 'i', title: 'formula and reference (i)', onclick: () => explain(lane.scheme), data: {'aria-label': `about ${lane.title}`}}),
             make('button', {textContent: '×', title: 'remove this lane (x)', hidden: view.lanes.length === 1, onclick: () => order('remove', i), data: {'aria-label': `remove ${lane.title}`}}));
     }));
+    at('lanes').querySelectorAll('.lane').forEach((pick, i) => pick.setAttribute('aria-pressed', i === view.selected));
 }
 
 const select = lane => ask('select', lane);
@@ -232,16 +268,8 @@ function control(parameter, i) {
         return [label, field];
     }
     const slider = make('input', {type: 'range', min: 0, max: 1, step: 0.001, ...focus, data: {'aria-label': `${key}: ${parameter.help}`}});
-    let wanted = null;
-    slider.oninput = async () => {
-        const first = wanted === null;
-        wanted = slider.value;
-        while (first && wanted !== null) { // one order at a time: the last place counts
-            const place = Number(wanted);
-            await order('slide', view.selected, key, place);
-            wanted = Number(wanted) === place ? null : wanted;
-        }
-    };
+    const slide = latest(place => order('slide', view.selected, key, place));
+    slider.oninput = () => slide(Number(slider.value));
     return [label, slider, field];
 }
 
@@ -293,9 +321,13 @@ function move(direction, fine) {
 // ---- schemes ----
 
 function showSchemes() {
-    const sought = at('find').value.toLowerCase();
+    const sought = at('find').value.trim().toLowerCase();
     const fits = schemes.filter(scheme => [scheme.scheme, scheme.title, ...scheme.claims].join(' ').toLowerCase().includes(sought));
-    at('schemes').replaceChildren(...fits.map(scheme => make('li', null,
+    // the exact name first, then those that begin so
+    const rankOf = name => name.toLowerCase() === sought ? 0 : name.toLowerCase().startsWith(sought) ? 1 : 2;
+    const rank = ({scheme, title}) => Math.min(rankOf(scheme), rankOf(title));
+    fits.sort((a, b) => rank(a) - rank(b));
+    renew(at('schemes'), fits.map(one => [one.scheme, one.for]), () => fits.map(scheme => make('li', null,
         make('button', {className: 'scheme', onclick: event => take(scheme.scheme, event.shiftKey || forking), data: {'data-scheme': scheme.scheme}, title: 'switch the chosen lane to it; with shift: fork'},
             `${scheme.title}${scheme.order ? `, order ${scheme.order}` : ''}`,
             make('span', {className: 'claims'}, scheme.claims.join(', ') || 'claims nothing but its order')),
@@ -326,10 +358,13 @@ function seek(forks) {
 }
 
 async function explain(name) {
-    const scheme = schemes.find(other => other.scheme === name) || {title: name, claims: []}, certificate = await ask('certify', name);
+    const scheme = schemes.find(other => other.scheme === name) || {title: name, claims: []};
+    const on = named(words).filter(word => !/^(scheme|dt)=/.test(word));
+    const {certificate, refused} = await ask('certify', {name, problem: scheme.for, on}), order = certificate?.measured_order;
     const measured = Object.entries(certificate?.properties || {}).filter(([, claim]) => claim.measured);
     sheet(scheme.title, make('pre', null, scheme.formula || name), make('p', null, scheme.reference || ''),
-        make('p', null, `Measured: order ${digits(certificate?.measured_order, 4)}, and these defects.`),
+        make('p', null, refused || (order === null && measured.length === 0 ? `Not measured here; in a terminal, geomint certify ${name} measures it.`
+            : `Measured: order ${digits(order, 4)}, and these defects.`)),
         make('table', {id: 'certificate'}, ...measured.map(([words, {claimed, defect, tolerance}]) => make('tr', null, make('th', {scope: 'row'}, words),
             make('td', null, digits(defect, 2)), make('td', null, !claimed ? 'not claimed' : defect <= tolerance ? 'holds' : 'is broken')))),
         make('p', {className: 'soft'}, `For ${scheme.for || 'these equations'}. Order ${scheme.order ?? 'unknown'}. ${scheme.claims.length > 0 ? `Claims: ${scheme.claims.join(', ')}.` : ''}`));
@@ -369,8 +404,11 @@ function split(line) {
 
 const typed = list => list.map(word => / /.test(word) && !word.includes('=') ? `"${word}"` : word).join(' ');
 
+// A formula alone is of a system.
+const named = list => /^(H|L|V|S|rate)=/.test(list[0] || '') ? ['system', ...list] : list;
+
 async function open(list, changes) {
-    const given = list.filter(Boolean), wanted = /^(H|L|V|S|rate)=/.test(given[0] || '') ? ['system', ...given] : given;
+    const wanted = named(list.filter(Boolean));
     const opened = await ask('open', {words: wanted, changes});
     if (opened.refused) {
         return opened.refused;
@@ -381,7 +419,7 @@ async function open(list, changes) {
     playing = false;
     failures.clear();
     const file = lesson.files[wanted[0]] !== undefined || wanted[0] === 'system';
-    at('scene').value = file ? '' : wanted[0];
+    at('scene').value = scene = file ? '' : wanted[0];
     at('words').value = typed(wanted);
     at('title').textContent = list === lesson.words || lesson.steps ? lesson.title : view.title;
     document.title = at('title').textContent;
@@ -395,10 +433,12 @@ function fault(sentence) {
     at('fault').textContent = sentence;
     at('fault').hidden = !sentence;
     at('words').setAttribute('aria-invalid', Boolean(sentence));
-    const [, quoted, caret] = sentence.split('\n');
-    if (caret) { // the place of the mistake in the field
-        const before = quoted.slice(4, caret.indexOf('^')), place = at('words').value.indexOf(quoted.trim().replace(/\?/g, '').slice(0, 20));
-        at('words').setSelectionRange(Math.max(place, 0) + before.length, Math.max(place, 0) + before.length + 1);
+    const [first, quoted, caret] = sentence.split('\n');
+    if (caret) { // the place of the mistake in the field: in the value of the key that the sentence names
+        const before = quoted.slice(4, caret.indexOf('^')), line = at('words').value, key = /^in (\S+=)/.exec(first)?.[1] || '';
+        const value = Math.max(` ${line}`.indexOf(` ${key}`), 0) + key.length;
+        const place = Math.max(line.indexOf(quoted.trim().replace(/\?/g, '').slice(0, 20), value), 0);
+        at('words').setSelectionRange(place + before.length, place + before.length + 1);
     }
 }
 
@@ -407,7 +447,11 @@ at('formula').onsubmit = async event => {
     const refused = await open(split(at('words').value));
     fault(/^there is no scene|^which scene/.test(refused) ? `${refused}; a formula is H=p^2/2 - cos(q) q=1 p=0, without blanks beside =` : refused);
 };
-at('scene').onchange = async () => at('scene').value && say(await open([at('scene').value]) || view.title);
+at('scene').onchange = async () => {
+    const refused = at('scene').value && await open([at('scene').value]);
+    at('scene').value = scene;
+    say(refused || view.title, refused);
+};
 
 // lesson.html#kepler&scheme=verlet,rk4 opens another view. Returns true if there is one that is not refused.
 async function openHash() {
@@ -415,12 +459,12 @@ async function openHash() {
     if (!hash) {
         return false;
     }
-    let refused;
+    let list;
     try {
-        refused = await open(hash.split('&').map(decodeURIComponent));
-    } catch (error) {
-        refused = 'the words after # are not percent-encoded';
+        list = hash.split('&').map(decodeURIComponent);
+    } catch (error) { // list has no value then
     }
+    const refused = list ? await open(list) : 'the words after # are not percent-encoded';
     if (refused) {
         say(`The link was not opened: ${refused}`, true);
     }
@@ -453,43 +497,55 @@ at('overlay').onclick = () => order('press', 'o');
 at('undo').onclick = () => order('undo');
 at('find').oninput = showSchemes;
 at('find').onkeydown = event => {
-    const first = at('schemes').querySelector('.scheme');
-    if (event.key === 'Enter') { // a word that fits none may be a user-defined scheme
-        take(first ? first.dataset.scheme : at('find').value, event.shiftKey || forking);
+    const first = at('schemes').querySelector('.scheme'), sought = at('find').value.trim();
+    if (event.key === 'Enter' && sought) { // a word that fits none may be a user-defined scheme
+        take(first ? first.dataset.scheme : sought, event.shiftKey || forking);
     }
 };
 
 // ---- the pointer: a press or a drag in a plane starts an orbit there; in space it turns the camera ----
 
-let held = null, pointed = null;
+const SLOP = 6; // what a press moves at most, in pixels
+let held = null, drags = false;
+const pointAt = latest(places => ask('order', ['point', ...places]));
 
-async function point(event) {
-    const box = canvas.getBoundingClientRect(), scale = canvas.width / box.width, first = pointed === null;
-    const places = [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+function point(event) {
+    const box = canvas.getBoundingClientRect(), scale = canvas.width / box.width;
     if (view.in_space) {
         const degrees = 180 / box.width, turn = [degrees * (held.clientX - event.clientX), degrees * (event.clientY - held.clientY)];
         held = event;
         ask('order', ['look', ...turn, 1]);
-        return;
-    }
-    pointed = places;
-    while (first && pointed !== null) { // one order at a time: the last place counts
-        const place = pointed;
-        await ask('order', ['point', ...place]);
-        pointed = pointed === place ? null : pointed;
+    } else {
+        pointAt([(event.clientX - box.left) * scale, (event.clientY - box.top) * scale]);
     }
 }
 
+// Neither other buttons nor a second finger act. A finger that moves upwards or downwards in a plane scrolls the page, so a
+// press acts at its end, and a drag when it is clear that it is one.
 canvas.addEventListener('pointerdown', event => {
-    held = event;
-    canvas.setPointerCapture(event.pointerId);
-    if (!view.in_space) {
-        point(event);
+    if (event.isPrimary && event.button === 0) {
+        held = event;
+        drags = false;
+        canvas.setPointerCapture(event.pointerId);
     }
 });
-canvas.addEventListener('pointermove', event => held && point(event));
-canvas.addEventListener('pointerup', () => { held = null; });
-canvas.addEventListener('pointercancel', () => { held = null; });
+const distance = event => [event.clientX - held.clientX, event.clientY - held.clientY].map(Math.abs);
+canvas.addEventListener('pointermove', event => {
+    if (held && view && event.isPrimary) {
+        const [x, y] = distance(event), scrolls = event.pointerType === 'touch' && !view.in_space && y >= x;
+        drags = drags || (Math.max(x, y) > SLOP && !scrolls);
+        if (drags) {
+            point(event);
+        }
+    }
+});
+canvas.addEventListener('pointerup', event => {
+    if (held && view && event.isPrimary && !view.in_space && !drags && Math.max(...distance(event)) <= SLOP) {
+        point(event);
+    }
+    held = event.isPrimary ? null : held;
+});
+canvas.addEventListener('pointercancel', event => { held = event.isPrimary ? null : held; });
 canvas.addEventListener('wheel', event => {
     if (view.in_space) {
         event.preventDefault();
@@ -579,7 +635,7 @@ async function goTo(wanted) {
     } else if (begins !== null) {
         await ask('ahead', begins);
     }
-    const span = Math.abs(step.until - (begins ?? view.t));
+    const span = refused ? 0 : Math.abs(step.until - (begins ?? view.t));
     if (span > 0 && step.seconds > 0) {
         setSpeed(span / step.seconds);
     }
@@ -587,6 +643,7 @@ async function goTo(wanted) {
     if (answered && !refused) {
         play(true);
     }
+    return refused;
 }
 
 function showStep(over) {
@@ -675,6 +732,15 @@ const keys = {
     'n': ['in a lesson: answer or next step', inTour(next)],
     'N': ['in a lesson: the step before', inTour(() => goTo(stepNumber - 1))],
     'a': ['in a lesson: this step again', inTour(() => goTo(stepNumber))],
+    'H': ['in an exercise: a hint', inTour(() => say(lesson.steps[stepNumber].hint || 'This step has no hint.'))],
+    'S': ['in an exercise: save your answer', inTour(async () => {
+        if (!at('grade').hidden) {
+            await at('grade').onclick();
+            if (!at('hand-in').hidden) {
+                at('hand-in').click();
+            }
+        }
+    })],
     '?': ['this page', () => at('help').click()],
 };
 for (let i = 0; i < most; i++) {
@@ -686,6 +752,7 @@ document.addEventListener('keydown', event => {
     const onButton = event.target.closest?.('button') && (event.key === ' ' || event.key === 'Enter');
     const onSlider = event.target.matches?.('[type=range]') && /^(Arrow|Page|Home|End)/.test(event.key);
     if (event.key === 'Escape') {
+        forking = false;
         document.activeElement.blur();
     }
     if (event.ctrlKey || event.metaKey || event.altKey || inside || onButton || onSlider || !view || !keys[event.key]) {

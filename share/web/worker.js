@@ -45,6 +45,7 @@ const setClock = () => { clock = performance.now(); clockTime = view.t; };
 // ---- time ----
 
 const sign = () => view.backwards ? -1 : 1;
+const ahead = () => agenda.filter(({t}) => t >= view.t); // what of a tour is due
 const ended = () => view.lanes.every(lane => lane.status !== 'ok');
 
 // Makes a change of the tour; the chosen lane stays.
@@ -66,6 +67,9 @@ function advance(wanted) {
         const limit = next ? Math.min(wanted, next.t) : wanted;
         call('advance', lab, limit);
         look();
+        if (view.backwards) {
+            due = ahead();
+        }
         if (!next || limit < next.t) {
             return;
         }
@@ -113,7 +117,7 @@ function draw(handle, width, height, scale, dark) {
     if (size > capacity) {
         web._free(pixels);
         pixels = web.___wrap_malloc(size);
-        capacity = size;
+        capacity = pixels ? size : 0; // without memory a smaller picture may succeed
     }
     Object.assign(paper, {width, height});
     call('theme', handle, dark ? 'dark' : 'light');
@@ -168,8 +172,8 @@ function order(name, ...values) {
     const refusal = status === 0 || status === 2 ? '' : sentence(lab);
     const before = view.t;
     look();
-    if (view.t < before) { // it is shown again
-        due = agenda.filter(({t}) => t >= view.t);
+    if (view.t < before || (view.t > before && name !== 'forward')) { // another time is shown; steps leave what is due on the way
+        due = ahead();
     }
     part = LEAST;
     setClock();
@@ -256,25 +260,36 @@ const orders = {
         const answer = text(call('answer', lab, tour, step));
         return {passed, verdict, answer, refused: answer ? '' : sentence(lab)};
     },
-    certify(scheme) {
-        const handle = call('certify', scheme, []), certificate = JSON.parse(text(call('text', handle)) || 'null');
-        call('close', handle);
-        return certificate;
+    // The certificate of a scheme for a problem. Schemes share names: if the first of the name is for another problem, the view's
+    // words name the right one, which is then measured on these words.
+    certify({name, problem, on}) {
+        const measure = words => {
+            const handle = call('certify', name, words), certificate = JSON.parse(text(call('text', handle)) || 'null');
+            const refused = certificate ? '' : sentence(handle);
+            call('close', handle);
+            return {certificate, refused};
+        };
+        const first = measure([]);
+        return problem && first.certificate?.for !== problem ? measure(on) : first;
     },
     commands() { call('theme', lab, 'light'); return JSON.parse(text(call('commands', lab))); },
     // The picture of a command line, `geomint render` of these words with these changes.
     async still({words, changes}) {
         const handle = call('open', words), counted = step => [step | 0, Math.floor(step / 2 ** 32)];
+        let refused = call('lanes', handle) === 0 ? sentence(handle) : null;
+        const give = (...values) => { // a lane that fails, 2, is drawn
+            refused = refused ?? ([0, 2].includes(call(...values)) ? null : sentence(handle));
+        };
         for (const [, lane, step, change] of changes) {
-            call('change', handle, Number(lane), ...counted(Number(step)), change);
+            give('change', handle, Number(lane), ...counted(Number(step)), change);
         }
         for (let lane = 0; lane < call('lanes', handle); lane++) {
             // the low half of the number of steps left: 0 is the end
-            for (let left; (left = call('steps_left', handle, lane) | 0) !== 0;) {
-                call('step', handle, lane, ...counted(left < 0 ? 1000 : left));
+            for (let left; refused === null && (left = call('steps_left', handle, lane) | 0) !== 0;) {
+                give('step', handle, lane, ...counted(left < 0 ? 1000 : left));
             }
         }
-        const refused = draw(handle, 1280, 720, 1, false);
+        refused = refused ?? draw(handle, 1280, 720, 1, false);
         call('close', handle);
         return refused ? {refused} : {blob: await paper.convertToBlob()};
     },

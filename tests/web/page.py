@@ -127,6 +127,12 @@ class Page:
     async def view(self):
         return await self.value("view")
 
+    async def press(self, identity):
+        """A press of the mouse in the middle of an element."""
+        box = await self.value(f"(box => [box.x + box.width / 2, box.y + box.height / 2])(at('{identity}').getBoundingClientRect())")
+        for kind in "mousePressed", "mouseReleased":
+            await self.send("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left", clickCount=1)
+
     async def shot(self, name):
         if shots:
             data = (await self.send("Page.captureScreenshot", format="png"))["data"]
@@ -213,6 +219,12 @@ async def controls(port):
     refusal = Native("system", "H=p^2/2 - cos(q q=1 p=0").message()
     check("a wrong formula", await page.value("at('fault').textContent") == refusal, refusal)
     check("the view stays", (await page.view())["scene"] == "kepler")
+    twice = "H=1+p^2/2+q^2 q=0 p=1+"
+    await page.act(f"at('words').value = '{twice}'; at('formula').requestSubmit()")
+    check("the place of a mistake", await page.value("at('words').selectionStart") == len(twice), await page.value("at('fault').textContent"))
+    for words, changes in [["nothing"], []], [["kepler"], [[0, 0, 0, "dt=x"]]]:
+        refused = (await page.value(f"ask('still', {json.dumps({'words': words, 'changes': changes})})")).get("refused")
+        check(f"a refused PNG: {refused}", refused)
     await page.shot("fault")
     await page.act(f"at('words').value = {json.dumps(right)}; at('formula').requestSubmit()")
     native = Native("system", "H=p^2/2 - cos(q)", "q=1", "p=0", "scheme=verlet")
@@ -243,9 +255,106 @@ async def controls(port):
     await page.click("revive")
     await page.until("at('crash').hidden && view.t === 0")
     check("a crash has a sentence and a way on", "stopped" in await page.value("at('crash-text').textContent"))
+    slide = "(slider => { slider.value = %s; slider.dispatchEvent(new Event('input')); })(at('parameter-dt').previousSibling); "
+    await page.act("order('forward')")
+    await page.value(slide % 0.7 + "crash('a test')")
+    await page.click("revive")
+    await page.until("at('crash').hidden && view !== null")
+    await page.act(slide % 0.3)
+    check("a slider acts after a crash", await page.value("view.parameters.some(({position}) => Math.abs(position - 0.3) < 0.02)"))
+    await page.value("void begin()")
+    for identity in "restart", "forward", "play":
+        await page.press(identity)
+    check("they are pressed before", await page.value("document.querySelector('main').inert"))
+    await page.until("view !== null && document.body.dataset.frames > 0 && !document.querySelector('main').inert")
+    check("controls wait for the program", await page.value("at('crash').hidden && !playing && view.t === 0"),
+          await page.value("at('crash-text').textContent"))
     for tab in page, other:
         check("no errors in the console", not tab.errors, tab.errors)
         check("no requests", not tab.requests, tab.requests)
+
+
+async def choices(port):
+    """What is chosen by keys, the mouse and a finger."""
+    page = await Page().open(port, lesson("choices.html", "kepler"))
+    find = "at('find').value = '%s'; at('find').oninput(); at('find').onkeydown({key: 'Enter'})"
+    for word, scheme in ("suzuki4", "suzuki4"), ("", "suzuki4"), ("RK4", "rk4"):
+        await page.act(find % word)
+        check(f"find '{word}'", await page.value("view.lanes[0].scheme") == scheme, await page.value("view.lanes[0].scheme"))
+    await page.act(find % "nonsense")
+    check("a scheme that is not there", "nonsense" in await page.value("at('notice').textContent"))
+    await page.act("at('find').value = ''; at('find').oninput()")
+    focused = "document.activeElement.dataset.scheme || document.activeElement.textContent"
+    await page.act("(button => { button.focus(); button.click(); })(document.querySelector('[data-scheme=verlet]'))")
+    check("the focus stays on a scheme", await page.value(focused) == "verlet", await page.value(focused))
+    await page.act("order('fork', 0, 'rk4').then(() => { const [, lane] = document.querySelectorAll('.lane'); lane.focus(); lane.click(); })")
+    check("the focus stays on a lane", await page.value("view.selected === 1 && document.activeElement.matches('.lane[aria-pressed=true]')"),
+          await page.value("document.activeElement.outerHTML"))
+    await page.act("order('remove', 0)")
+    count = await page.value("view.lanes.length")
+    await page.act("seek(true); document.dispatchEvent(new KeyboardEvent('keydown', {key: 'Escape'}))")
+    await page.act("document.querySelector('[data-scheme=gauss4]').click()")
+    check("Escape ends a fork", await page.value("view.lanes.length") == count)
+    await page.act("at('scene').append(make('option', {value: 'room'}, 'room')); at('scene').value = 'room'; at('scene').onchange()")
+    check("a refused scene is not shown as chosen", await page.value("at('scene').value === 'kepler' && at('notice').firstChild.matches('.bad')"))
+
+    await page.value("words = ['nothing']; void begin()")
+    await page.until("view !== null && !document.querySelector('main').inert")
+    check("a first view that is refused", await page.value("view.scene === 'kepler' && at('notice').textContent.includes('nothing')"))
+
+    page = await Page().open(port, lesson("phone.html", "disc", "scheme=verlet", "window=-3,3,-3,3"), 500, 900)
+    await page.send("Emulation.setTouchEmulationEnabled", enabled=True)
+    # a place of a plane, where a press starts an orbit
+    box = await page.value("""(async box => {
+        for (let place = 11; place < 100; place++) {
+            const [x, y] = [place % 10 / 10, Math.floor(place / 10) / 10];
+            await order('forward');
+            await order('point', canvas.width * x, canvas.height * y);
+            await ask('settled');
+            if (view.t === 0) {
+                return {x: box.x + box.width * x, y: box.y + box.height * y};
+            }
+        }
+    })(canvas.getBoundingClientRect())""")
+
+    async def gesture(*places):
+        """Drags a finger over places beside the box, from the time of one step; returns the time after that."""
+        await page.act("order('forward')")
+        for kind, places in [("touchStart", places[:1]), *[("touchMove", [place]) for place in places[1:]], ("touchEnd", [])]:
+            touched = [{"x": box["x"] + x, "y": box["y"] + y} for x, y in places]
+            await page.send("Input.dispatchTouchEvent", type=kind, touchPoints=touched)
+        await page.act("0")
+        return await page.value("view.t")
+
+    async def mouse(kind, button, step=0):
+        await page.send("Input.dispatchMouseEvent", type="mouse" + kind, x=box["x"] + step, y=box["y"], button=button,
+                        buttons=1, clickCount=1)
+        await page.act("0")
+
+    check("a finger that scrolls starts no orbit", await gesture((0, 0), (0, -10), (0, -30), (0, -60)) > 0)
+    check("a touch starts an orbit", await gesture((0, 0)) == 0)
+    check("a finger that moves sidewards starts an orbit", await gesture((0, 0), (10, 0), (30, 0)) == 0)
+    await page.send("Emulation.setTouchEmulationEnabled", enabled=False)
+    await page.act("order('forward')")
+    await mouse("Pressed", "right")
+    await mouse("Released", "right")
+    check("a right button starts no orbit", await page.value("view.t") > 0)
+    await mouse("Pressed", "left")
+    await mouse("Released", "left")
+    check("a press starts an orbit", await page.value("view.t") == 0)
+    starts = set()
+    for kind, step in [("Pressed", 0), ("Moved", 10), ("Moved", 20), ("Released", 20)]:
+        await mouse(kind, "left", step)
+        starts.add(json.dumps(await page.value("view.lanes[0].values")))
+    check("a drag moves the start", len(starts) == 3, starts)
+
+    for scene, scheme, equations in [("burgers", "crank-nicolson", "Burgers"), ("nls", "euler-box", "Schrödinger"), ("nls", "nonsense", "")]:
+        await page.act(f"open(['{scene}']).then(() => explain('{scheme}'))")
+        text = await page.value("at('sheet-text').innerText")
+        about = await page.value(f"ask('certify', {{name: '{scheme}', problem: schemes.find(one => one.scheme === '{scheme}')?.for, on: words}})")
+        check(f"the certificate of {scheme} for {scene}", equations in about["certificate"]["for"] and "sine-Gordon" not in text
+              and f"geomint certify {scheme}" in text if equations else about["refused"] in text, about, text)
+        await page.click("close")
 
 
 async def other_views(port):
@@ -269,11 +378,16 @@ async def other_views(port):
     await page.click("grade")
     native = Native("disc", "scheme=rk4", "dt=pi/6").order("advance", 62.9)
     native.order("grade", "exercises", 1)
+    await page.act("document.dispatchEvent(new KeyboardEvent('keydown', {key: 'H'}))")
+    check("a hint", await page.value("at('notice').textContent === lesson.steps[0].hint"))
     check("an exercise that is not passed", await page.value("at('verdict').textContent") == native.message())
     await page.act("order('set', 0, 'dt', '1').then(() => order('switch', 0, 'verlet')).then(() => order('restart'))")
     await page.value("ask('ahead', 62.9)")
     await page.click("grade")
     await page.shot("passed")
+    await page.value("document.dispatchEvent(new KeyboardEvent('keydown', {key: 'S'}))")
+    await arrives(folder + "/exercises-1.answer")
+    check("an answer is saved", os.path.exists(folder + "/exercises-1.answer"))
     check("an exercise that is passed", (await page.value("at('verdict').textContent")).startswith("Passed"),
           await page.value("at('tour-text').textContent"))
     # the other exercises, with the verdict of the native program: a near miss, and a right answer
@@ -307,6 +421,12 @@ async def other_views(port):
     native.order("advance", 7.0)
     check("a change and stops between two steps", numbers(await page.view()) == numbers(native.view()), await page.view())
     check("the change leaves the chosen lane", await page.value("view.selected") == 0)
+    await page.value("goTo(0)")
+    await page.until("!playing && view.t > 3")
+    await page.act("order('reverse').then(() => ask('ahead', -3)).then(() => order('restart'))")
+    await page.act("order('switch', 1, 'rk2').then(() => play(true))")
+    await page.until("!playing && view.t > 3")
+    check("a lesson that was before its start has its stop and changes", await page.value("view.t <= 4 && view.lanes[1].scheme === 'verlet'"))
     await page.act("explain('rk4')")
     check("a certificate", await page.value("at('certificate').innerText.includes('symplectic') && "
                                             "at('sheet-text').innerText.includes('order 4')"))
@@ -407,6 +527,7 @@ async def main():
             await frames(port, chromium.pid, seconds, sys.argv[5:] or ["disc", "kepler", "vortices"])
             return
         await controls(port)
+        await choices(port)
         await other_views(port)
         if shots:
             await looks(port)

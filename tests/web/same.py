@@ -82,8 +82,8 @@ def times(runs, rounds=5):
 
 
 if sys.argv[4:] == ["time"]:
-    times(["kepler scheme=verlet steps=1e7", "kepler scheme=rk4 steps=5e6", "kepler scheme=gauss4 steps=1e6",
-           "disc scheme=verlet points=1e4 steps=1e4", "disc scheme=rk4 points=1e4 steps=3e3",
+    times(["kepler scheme=verlet steps=5e7", "kepler scheme=rk4 steps=3e7", "kepler scheme=gauss4 steps=5e6",
+           "disc scheme=verlet points=1e4 steps=3e4", "disc scheme=rk4 points=1e4 steps=1e4",
            "system 'H=p^2/2 - cos(q)' q=1 p=0 scheme=verlet steps=3e6"])
     sys.exit(0)
 

@@ -14,8 +14,8 @@ GM_INLINE mask K(explicit_step)(const struct gm_tableau *tableau, struct K(block
         for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
             some at = K(take)(block->y + c);
 #pragma GCC unroll 8
-            for (int j = 0; j < i; j++) {
-                if (tableau->a[i][j] != 0) {
+            for (int j = 0; j < GM_EXPLICIT_LISTED_STAGES; j++) { /* a count that every compiler can unroll */
+                if (j < i && tableau->a[i][j] != 0) {
                     at += h * tableau->a[i][j] * K(take)(&k[j][c]);
                 }
             }
