@@ -62,7 +62,7 @@ static bool move_parameter(struct gm_session *session, const struct gm_order *or
     if (order->kind == GM_ORDER_STANDARD) {
         snprintf(text, sizeof text, "%s", row->standard);
     } else if (order->kind == GM_ORDER_TYPE) {
-        if (strlen(order->text) >= GM_TEXT_SIZE) {
+        if (row->type != GM_TEXT && strlen(order->text) >= GM_TEXT_SIZE) {
             return gm_refuse(message, "A value has at most %d letters.", GM_TEXT_SIZE - 1);
         }
         snprintf(text, sizeof text, "%s", order->text);

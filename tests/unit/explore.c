@@ -198,6 +198,9 @@ static void parameters_are_set(void **unused)
     assert_null(strstr(geomint_view(lab), "\"eccentricity\",\"value\":\"0.25\""));
     expect(geomint_set(lab, 0, "eccentricty", "0.5"), lab, GEOMINT_USAGE, "did you mean eccentricity");
     expect(geomint_set(lab, 0, "eccentricity", "2"), lab, GEOMINT_USAGE, "out of range");
+    char longest[400]; /* 0.100...e1, which is not 0.1 */
+    snprintf(longest, sizeof longest, "0.1%0300de1", 0);
+    expect(geomint_set(lab, 0, "eccentricity", longest), lab, GEOMINT_USAGE, "at most 255 letters");
     expect(geomint_set(lab, 1, "eccentricity", "0.5"), lab, GEOMINT_USAGE, "there is no lane 1");
     expect(geomint_set(lab, 0, NULL, "0.5"), lab, GEOMINT_USAGE, "key is NULL");
     expect(geomint_slide(lab, 0, "shape", 0.5), lab, GEOMINT_USAGE, "shape has no range");
@@ -387,6 +390,9 @@ static void exercises_are_graded(void **unused)
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM,
            "Not passed: RK4 misses area_error < 1e-10");
     good(geomint_switch(lab, 0, "verlet"), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM,
+           "Verlet, after RK4 has made no step since");
+    good(geomint_forward(lab), lab);
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "Verlet, after RK4 misses");
     assert_non_null(strstr(geomint_answer(lab, "exercises", 1), "change: 0 62 scheme=verlet\n"));
     good(geomint_restart(lab), lab);
