@@ -629,7 +629,7 @@ static void states_have_their_arrays(void **unused)
         const size_t count = gm_quantities(lane->run, quantities);
         char names[200] = "";
         for (size_t k = 0; k < count; k++) {
-            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", k > 0 ? " " : "",
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%.40s", k > 0 ? " " : "",
                      quantities[k].name);
         }
         assert_string_equal(names, rows[i].names);
