@@ -24,6 +24,7 @@ static const char *value_of(const struct gm_request *request, size_t lane, const
                : gm_scheme_word(spec->scheme);
 }
 
+/* Returns true if all lanes have the same value of the row. */
 static bool are_alike(const struct gm_request *request, const struct gm_parameter *row)
 {
     char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
