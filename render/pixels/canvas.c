@@ -47,13 +47,22 @@ struct target {
     const struct gm_draw_call *call;
     const struct gm_atlas *atlas;
     unsigned char *rgba;
+    int width;
     int left, top, right, bottom; /* only these pixels may change */
+    bool wholly;                  /* ink on wholly covered pixels alone */
+    bool plain;                   /* ink without a stencil */
 };
+
+/* ---- four pixels at a time ---- */
+
+enum { LANES = 4 };
+typedef uint32_t pixels __attribute__((vector_size(16))); /* four bytes each, in any order */
+typedef uint16_t halves __attribute__((vector_size(16)));
+typedef int32_t choices __attribute__((vector_size(16))); /* -1: yes; 0: no */
+typedef float reals __attribute__((vector_size(16)));
 
 /* These functions are so short, and are called so often, that a call would cost as much as their work. */
 #define INLINE static inline __attribute__((always_inline))
-
-/* ---- pixels: four bytes, in any order ---- */
 
 INLINE uint32_t pixel_of(const uint8_t bytes[4])
 {
@@ -62,214 +71,239 @@ INLINE uint32_t pixel_of(const uint8_t bytes[4])
     return pixel;
 }
 
-/* Mixes two colours by alpha of 255, each byte rounded to the nearest. */
-INLINE uint32_t mixed(uint32_t under, uint32_t over, uint32_t alpha)
+INLINE pixels load(const void *from)
 {
-    const uint32_t pairs = 0x00ff00ff, half = 0x00800080;
-    uint32_t even = (over & pairs) * alpha + (under & pairs) * (255 - alpha) + half;
-    uint32_t odd = (over >> 8 & pairs) * alpha + (under >> 8 & pairs) * (255 - alpha) + half;
-    even = (even + (even >> 8 & pairs)) >> 8 & pairs;
-    odd = (odd + (odd >> 8 & pairs)) & ~pairs;
-    return even | odd;
+    pixels values;
+    memcpy(&values, from, sizeof values);
+    return values;
 }
 
-/* ---- a triangle's values as planes over the pixels ---- */
+/* Mixes two colours by alpha of 255, each byte rounded to the nearest; 0 and 255 keep one of them. */
+INLINE pixels mixed(pixels under, pixels over, pixels alpha)
+{
+    const uint32_t low = 0x00ff00ff;
+    const halves part = (halves)(alpha | alpha << 16), rest = 255 - part;
+    halves even = (halves)(over & low) * part + (halves)(under & low) * rest + 128;
+    halves odd = (halves)(over >> 8 & low) * part + (halves)(under >> 8 & low) * rest + 128;
+    even = (even + (even >> 8)) >> 8;
+    odd += odd >> 8;
+    return (pixels)even | ((pixels)odd & ~low);
+}
+
+/* ---- a piece of a plane, with values at its corners ---- */
 
 struct corner {
     double x, y; /* relative to the middle of the first pixel */
     const struct gm_vertex *vertex;
 };
 
-struct slope {
-    double right, down; /* the change of a value per pixel */
+/* A value on the plane: at the middle of the first pixel, and its change per pixel. */
+struct ramp {
+    double start, right, down;
 };
 
-struct plane {
-    float start, right; /* the value at the first pixel of a run, and its change per pixel */
+/* A triangle, or two of a strip that are convex together and whose values lie on one plane: most strips are
+   strokes of a few pixels, and half as many pieces cost half as much. */
+struct piece {
+    struct corner corner[4]; /* round it */
+    int count;
+    double area;   /* of the parallelogram of the first, second and last corner, with its sign */
+    bool straight; /* along is 0: the body of a stroke, or a box */
 };
 
-struct planes {
-    struct plane across, along, half, light; /* the light of 255 */
-};
-
-struct triangle {
-    struct corner corner[3];
-    double area; /* twice the area, with its sign */
-    bool sloped; /* the slopes are known: many a triangle has no pixel and needs none */
-    struct slope across, along, half, light;
+struct ramps {
+    struct ramp across, along, light; /* light of 255; a straight piece needs only the first */
 };
 
 /* Rounds to 1/256: a double this large has no digits below that. */
-static double snapped(float place)
+INLINE double snapped(float place)
 {
     const double large = 0x1.8p44;
     return ((double)place + large) - large - 0.5;
 }
 
-static struct corner corner_of(const struct gm_vertex *vertex)
+INLINE struct corner corner_of(const struct gm_vertex *vertex)
 {
     return (struct corner){snapped(vertex->x), snapped(vertex->y), vertex};
 }
 
-/* The slope of a value that is a, b and c at the corners. */
-static struct slope slope_across(const struct triangle *triangle, float a, float b, float c)
+/* The area of a parallelogram, above 0 if the way from a to b turns right, as seen, to c. */
+INLINE double area_of(const struct corner *a, const struct corner *b, const struct corner *c)
 {
-    const struct corner *p = triangle->corner;
-    const double first = (double)b - (double)a, second = (double)c - (double)a;
-    return (struct slope){
-        .right = (first * (p[2].y - p[0].y) - second * (p[1].y - p[0].y)) / triangle->area,
-        .down = (second * (p[1].x - p[0].x) - first * (p[2].x - p[0].x)) / triangle->area,
-    };
+    return (b->x - a->x) * (c->y - a->y) - (c->x - a->x) * (b->y - a->y);
 }
 
-static void find_slopes(struct triangle *triangle)
+/* Returns the ramp of a value that is a, b and c at the first, second and last corner. */
+INLINE struct ramp ramp_through(const struct piece *piece, float a, float b, float c)
 {
-    const struct gm_vertex *a = triangle->corner[0].vertex, *b = triangle->corner[1].vertex,
-                           *c = triangle->corner[2].vertex;
-    triangle->sloped = true;
-    triangle->across = slope_across(triangle, a->across, b->across, c->across);
-    triangle->along = slope_across(triangle, a->along, b->along, c->along);
-    triangle->half = slope_across(triangle, a->half, b->half, c->half);
-    triangle->light = slope_across(triangle, a->colour[1], b->colour[1], c->colour[1]);
+    const struct corner *p = &piece->corner[0], *q = &piece->corner[1], *r = &piece->corner[piece->count - 1];
+    const double first = ((double)b - (double)a) / piece->area,
+                 second = ((double)c - (double)a) / piece->area;
+    const double right = first * (r->y - p->y) - second * (q->y - p->y);
+    const double down = second * (q->x - p->x) - first * (r->x - p->x);
+    return (struct ramp){(double)a - right * p->x - down * p->y, right, down};
 }
 
-INLINE struct plane plane_of(const struct triangle *triangle, struct slope slope, float a, int x, int y)
+INLINE struct ramps ramps_of(const struct piece *piece)
 {
-    const struct corner *p = triangle->corner;
-    return (struct plane){(float)((double)a + slope.right * (x - p->x) + slope.down * (y - p->y)),
-                          (float)slope.right};
+    const struct gm_vertex *a = piece->corner[0].vertex, *b = piece->corner[1].vertex,
+                           *c = piece->corner[piece->count - 1].vertex;
+    struct ramps ramps = {.across = ramp_through(piece, a->across, b->across, c->across)};
+    if (!piece->straight) {
+        ramps.along = ramp_through(piece, a->along, b->along, c->along);
+        ramps.light = ramp_through(piece, a->colour[1], b->colour[1], c->colour[1]);
+    }
+    return ramps;
 }
 
-INLINE struct planes planes_of(const struct triangle *triangle, int x, int y)
+/* Returns the values of four pixels of row y from x + step on. */
+INLINE reals values_of(struct ramp ramp, int x, int y, reals step)
 {
-    const struct gm_vertex *a = triangle->corner->vertex;
-    return (struct planes){
-        plane_of(triangle, triangle->across, a->across, x, y),
-        plane_of(triangle, triangle->along, a->along, x, y),
-        plane_of(triangle, triangle->half, a->half, x, y),
-        plane_of(triangle, triangle->light, a->colour[1], x, y),
-    };
+    const float start = (float)(ramp.start + ramp.down * y + ramp.right * x);
+    return start + step * (float)ramp.right;
 }
 
 /* ---- runs of pixels of one row ---- */
 
-/* Returns alpha times the ink's coverage of a pixel of a run. */
-INLINE uint8_t cover(const struct planes *planes, int i, bool wholly, float alpha)
+/* What a piece paints. It and the target are variables of the function that paints, as compilers see that a
+   pixel stored cannot change these. */
+struct paint {
+    struct ramps ramps;
+    bool straight;
+    float half, alpha;
+    uint8_t colour[4];
+};
+
+/* Returns alpha times the coverage of pixels by ink. */
+INLINE pixels cover_of_ink(const struct paint *paint, bool straight, bool wholly, int x, int y, reals step)
 {
-    const float step = (float)i;
-    const float across = planes->across.start + step * planes->across.right;
-    const float along = planes->along.start + step * planes->along.right;
-    const float half = planes->half.start + step * planes->half.right;
-    const float covered = half + 0.5f - sqrtf(across * across + along * along);
-    const float part = covered < 1.0f ? (wholly || !(covered > 0.0f) ? 0.0f : covered) : 1.0f;
-    return (uint8_t)(part * alpha + 0.5f);
+    const reals across = values_of(paint->ramps.across, x, y, step);
+    reals distance;
+    if (straight) {
+        distance = (reals)((choices)across & INT32_MAX);
+    } else {
+        const reals along = values_of(paint->ramps.along, x, y, step);
+        distance = across * across + along * along;
+        for (int i = 0; i < LANES; i++) {
+            distance[i] = sqrtf(distance[i]);
+        }
+    }
+    const reals covered = (paint->half + 0.5f) - distance;
+    const reals most = {1.0f, 1.0f, 1.0f, 1.0f};
+    const choices partly = covered < most, some = partly & (covered > 0.0f) & (wholly ? 0 : -1);
+    const reals part = (reals)(((choices)covered & some) | ((choices)most & ~partly));
+    return (pixels) __builtin_convertvector(part * paint->alpha + 0.5f, choices);
 }
 
-INLINE uint8_t cover_of_letter(const struct gm_atlas *atlas, const struct planes *planes, int i, float alpha)
+INLINE pixels cover_of_letters(const struct paint *paint, const struct gm_atlas *atlas, int x, int y,
+                               reals step)
 {
-    const int column = (int)(planes->across.start + (float)i * planes->across.right);
-    const int row = (int)(planes->along.start + (float)i * planes->along.right);
-    const bool within = column >= 0 && column < atlas->width && row >= 0 && row < atlas->height;
-    const float part = within ? atlas->pixels[(size_t)row * (size_t)atlas->width + (size_t)column] : 0.0f;
-    return (uint8_t)(part * alpha / 255.0f + 0.5f);
-}
-
-/* Returns the coverage that the call's stencil leaves of a pixel, and updates the stencil. */
-INLINE uint8_t sifted(const struct gm_draw_call *call, uint32_t *group, uint8_t covered)
-{
-    const uint32_t own = (uint32_t)call->once, before = *group;
-    switch (call->stencil) {
-    case GM_STENCIL_ONCE:
-        covered = (before & ~inside) == own ? 0 : covered;
-        *group = covered > 0 ? (before & inside) | own : before;
-        return covered;
-    case GM_STENCIL_OUTSIDE:
-        return before & inside ? 0 : covered;
-    case GM_STENCIL_INSIDE:
-        *group = before & ~inside;
-        return before & inside ? covered : 0;
-    case GM_STENCIL_INVERT:
-    case GM_STENCIL_NONE:
-        break;
+    const reals across = values_of(paint->ramps.across, x, y, step);
+    const reals along = values_of(paint->ramps.along, x, y, step);
+    pixels covered = {0};
+    for (int i = 0; i < LANES; i++) {
+        const int column = (int)across[i], row = (int)along[i];
+        const bool within = column >= 0 && column < atlas->width && row >= 0 && row < atlas->height;
+        const float part = within ? atlas->pixels[(size_t)row * (size_t)atlas->width + (size_t)column] : 0.0f;
+        covered[i] = (uint32_t)(part * paint->alpha / 255.0f + 0.5f);
     }
     return covered;
 }
 
-INLINE void put_ink(unsigned char *rgba, uint32_t colour, uint8_t covered)
+/* Returns part * 255, from 0 to 255. */
+INLINE uint32_t byte_of(float part)
 {
-    if (covered > 0) {
-        const uint32_t pixel = covered == 255 ? colour : mixed(pixel_of(rgba), colour, covered);
-        memcpy(rgba, &pixel, sizeof pixel);
-    }
+    return part > 0.0f ? (part < 1.0f ? (uint32_t)(255.0f * part + 0.5f) : 255) : 0;
 }
 
-static void put_field(const struct target *target, const struct planes *planes,
-                      const struct gm_vertex *vertex, unsigned char *rgba, int count)
+INLINE pixels colours_of_field(const struct target *target, const struct paint *paint, int x, int y,
+                               reals step)
 {
     const struct gm_mark *image = target->call->image;
-    const uint32_t *colours = target->rasteriser->colours + (vertex->colour[0] == 0 ? 0 : SHADES);
-    const float half = planes->half.start;
-    const uint32_t alpha = half > 0.0f ? (half < 1.0f ? (uint32_t)(255.0f * half + 0.5f) : 255) : 0;
-    for (int i = 0; i < count; i++) {
-        const float across = planes->across.start + (float)i * planes->across.right;
-        const float along = planes->along.start + (float)i * planes->along.right;
-        const double value = image ? (gm_image_value(image, (double)across, (double)along) - image->low) /
-                                         (image->high - image->low)
-                                   : (double)(across + along);
+    const uint32_t *colours = target->rasteriser->colours + (paint->colour[0] == 0 ? 0 : SHADES);
+    const reals across = values_of(paint->ramps.across, x, y, step);
+    const reals along = values_of(paint->ramps.along, x, y, step);
+    const reals light = values_of(paint->ramps.light, x, y, step);
+    pixels colour = {0}, lit = {0};
+    for (int i = 0; i < LANES; i++) {
+        const double value = image
+                                 ? (gm_image_value(image, (double)across[i], (double)along[i]) - image->low) /
+                                       (image->high - image->low)
+                                 : (double)(across[i] + along[i]);
         const int shade = value > 0.0 ? (value < 1.0 ? (int)(value * (SHADES - 1) + 0.5) : SHADES - 1) : 0;
-        const float light = planes->light.start + (float)i * planes->light.right;
-        const uint32_t black = pixel_of((const uint8_t[4]){0, 0, 0, 255});
-        const uint32_t colour = light < 254.5f
-                                    ? mixed(black, colours[shade], light > 0 ? (uint32_t)(light + 0.5f) : 0)
-                                    : colours[shade];
-        const uint32_t pixel = mixed(pixel_of(rgba + 4 * i), colour, alpha);
-        memcpy(rgba + 4 * i, &pixel, sizeof pixel);
+        colour[i] = colours[shade];
+        lit[i] = light[i] > 0.0f ? (light[i] < 255.0f ? (uint32_t)(light[i] + 0.5f) : 255) : 0;
     }
+    const uint32_t black = pixel_of((const uint8_t[4]){0, 0, 0, 255});
+    return mixed((pixels){black, black, black, black}, colour, lit);
 }
+
+/* Returns the coverage that the call's stencil leaves of pixels within the run, and updates the stencil. */
+INLINE pixels sifted(const struct gm_draw_call *call, unsigned char *group, pixels within, pixels covered)
+{
+    const uint32_t own = (uint32_t)call->once;
+    const pixels before = load(group), held = (pixels)((before & inside) != 0);
+    pixels after = before;
+    switch (call->stencil) {
+    case GM_STENCIL_ONCE:
+        covered &= (pixels)((before & ~inside) != own);
+        after ^= (before ^ ((before & inside) | own)) & (pixels)(covered != 0);
+        break;
+    case GM_STENCIL_OUTSIDE:
+        return covered & ~held;
+    case GM_STENCIL_INSIDE:
+        covered &= held;
+        after &= ~(within & inside);
+        break;
+    case GM_STENCIL_INVERT:
+        covered &= 0;
+        after ^= within & inside;
+        break;
+    case GM_STENCIL_NONE:
+        break;
+    }
+    memcpy(group, &after, sizeof after);
+    return covered;
+}
+
+/* What a function that puts pixels is compiled for: most of them are ink without a stencil. */
+enum work { STRAIGHT_INK, ROUND_INK, ANY };
 
 /* Draws at most RUN pixels of a row from x on. */
-INLINE void put_pixels(const struct target *target, struct triangle *triangle, int x, int y, int count)
+INLINE void put_run(const struct target *target, const struct paint *paint, enum work work, int x, int y,
+                    int count)
 {
-    const struct gm_draw_call *call = target->call;
-    const struct gm_vertex *vertex = triangle->corner[0].vertex;
-    const size_t place = (size_t)y * (size_t)target->rasteriser->width + (size_t)x;
-    uint32_t *groups = target->rasteriser->groups ? target->rasteriser->groups + place : NULL;
-    if (call->stencil == GM_STENCIL_INVERT) {
-        for (int i = 0; i < count; i++) {
-            groups[i] ^= inside;
+    const int last = target->width - LANES - x; /* the last four of the row */
+    const size_t place = (size_t)y * (size_t)target->width + (size_t)x;
+    const uint32_t ink = pixel_of(paint->colour);
+    const enum gm_program program = target->call->program;
+    for (int i = 0; i < count; i += LANES) {
+        const int first = i < last ? i : last;
+        const choices number = (choices){0, 1, 2, 3} + first;
+        const pixels within = (pixels)((number >= i) & (number < count));
+        const reals step = __builtin_convertvector(number, reals);
+        pixels colour = {ink, ink, ink, ink}, covered;
+        if (work != ANY || program == GM_PROGRAM_INK || program == GM_PROGRAM_CORE) {
+            covered = cover_of_ink(paint, work == STRAIGHT_INK || (work == ANY && paint->straight),
+                                   target->wholly, x, y, step);
+        } else if (program == GM_PROGRAM_TEXT) {
+            covered = cover_of_letters(paint, target->atlas, x, y, step);
+        } else {
+            const uint32_t alpha = byte_of(paint->half);
+            covered = (pixels){alpha, alpha, alpha, alpha};
+            colour = colours_of_field(target, paint, x, y, step);
         }
-        return;
-    }
-    unsigned char *rgba = target->rgba + 4 * place;
-    const float alpha = vertex->colour[3];
-    const uint8_t bytes[4] = {vertex->colour[0], vertex->colour[1], vertex->colour[2], 255};
-    const uint32_t colour = pixel_of(bytes);
-    if (!triangle->sloped) {
-        find_slopes(triangle);
-    }
-    const struct planes planes = planes_of(triangle, x, y);
-    const bool is_ink = call->program == GM_PROGRAM_INK || call->program == GM_PROGRAM_CORE;
-    if (is_ink && call->stencil == GM_STENCIL_NONE) {
-        for (int i = 0; i < count; i++) {
-            put_ink(rgba + 4 * i, colour, cover(&planes, i, call->program == GM_PROGRAM_CORE, alpha));
+        covered &= within;
+        const size_t at = 4 * (place + (size_t)first);
+        if (work == ANY && target->call->stencil != GM_STENCIL_NONE) {
+            covered = sifted(target->call, (unsigned char *)target->rasteriser->groups + at, within, covered);
         }
-    } else if (is_ink) {
-        for (int i = 0; i < count; i++) {
-            put_ink(rgba + 4 * i, colour,
-                    sifted(call, &groups[i], cover(&planes, i, call->program == GM_PROGRAM_CORE, alpha)));
-        }
-    } else if (call->program == GM_PROGRAM_TEXT) {
-        for (int i = 0; i < count; i++) {
-            const uint8_t covered = cover_of_letter(target->atlas, &planes, i, alpha);
-            put_ink(rgba + 4 * i, colour,
-                    call->stencil == GM_STENCIL_NONE ? covered : sifted(call, &groups[i], covered));
-        }
-    } else {
-        put_field(target, &planes, vertex, rgba, count);
+        const pixels painted = mixed(load(target->rgba + at), colour, covered);
+        memcpy(target->rgba + at, &painted, sizeof painted);
     }
 }
 
-/* ---- triangles ---- */
+/* ---- pieces ---- */
 
 /* Returns the first whole number that is not below a place, clamped to low and high. */
 INLINE int first_from(double place, int low, int high)
@@ -284,72 +318,130 @@ INLINE int first_from(double place, int low, int high)
     return whole + (whole < place);
 }
 
-INLINE double edge_at(const struct corner *from, double slope, int y)
+/* One side of a piece: the edge that crosses a row, on the way down from corner to corner. */
+struct side {
+    int to, turn; /* the next corner is `turn` corners on */
+    double x, y, slope;
+};
+
+/* Returns where a side crosses row y, which is above the lowest corner. */
+INLINE double crossing(struct side *side, const struct piece *piece, int y)
 {
-    return from->x + slope * (y - from->y);
+    const struct corner *to = &piece->corner[side->to];
+    if (!(y < to->y)) {
+        const struct corner *from;
+        do {
+            from = to;
+            side->to = (side->to + side->turn) % piece->count;
+            to = &piece->corner[side->to];
+        } while (!(y < to->y));
+        side->x = from->x;
+        side->y = from->y;
+        side->slope = (to->x - from->x) / (to->y - from->y);
+    }
+    return side->x + side->slope * (y - side->y);
 }
 
-static double slope_of(const struct corner *from, const struct corner *to)
+INLINE void put_rows(const struct target *target, const struct piece *piece, enum work work)
 {
-    return (to->x - from->x) / (to->y - from->y);
-}
-
-/* Draws a triangle. Corners by height: one edge goes from the first to the last, the others meet between. */
-static void put_triangle(const struct target *target, struct corner a, struct corner b, struct corner c)
-{
-    struct triangle triangle = {.corner = {a, b, c},
-                                .area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)};
-    const double area = triangle.area;
-    if (!(fabs(area) > 0.0)) {
+    const struct target to = *target;
+    const struct piece own = *piece;
+    int top = 0;
+    double bottom = own.corner[0].y;
+    for (int i = 1; i < own.count; i++) {
+        top = own.corner[i].y < own.corner[top].y ? i : top;
+        bottom = own.corner[i].y > bottom ? own.corner[i].y : bottom;
+    }
+    int y = first_from(own.corner[top].y, to.top, to.bottom);
+    const int last = first_from(bottom, to.top, to.bottom);
+    if (y == last) {
         return;
     }
-    const struct corner *top = &triangle.corner[0], *middle = &triangle.corner[1],
-                        *bottom = &triangle.corner[2];
-    bool turned = false;
-#define ORDER(first, second)                                                                                 \
-    if (second->y < first->y) {                                                                              \
-        const struct corner *other = first;                                                                  \
-        first = second;                                                                                      \
-        second = other;                                                                                      \
-        turned = !turned;                                                                                    \
-    }
-    ORDER(top, middle)
-    ORDER(middle, bottom)
-    ORDER(top, middle)
-#undef ORDER
-    const bool long_is_left = (area < 0.0) == turned;
-    const double whole = slope_of(top, bottom), upper = slope_of(top, middle),
-                 lower = slope_of(middle, bottom);
-    const int last = first_from(bottom->y, target->top, target->bottom);
-    for (int y = first_from(top->y, target->top, target->bottom); y < last; y++) {
-        const double along = edge_at(top, whole, y);
-        const double other = y < middle->y ? edge_at(top, upper, y) : edge_at(middle, lower, y);
-        const int end = first_from(long_is_left ? other : along, target->left, target->right);
-        for (int x = first_from(long_is_left ? along : other, target->left, target->right); x < end;
-             x += RUN) {
-            put_pixels(target, &triangle, x, y, end - x < RUN ? end - x : RUN);
+    const struct gm_vertex *vertex = own.corner[0].vertex;
+    struct paint paint = {ramps_of(&own), own.straight, vertex->half, vertex->colour[3], {0, 0, 0, 255}};
+    memcpy(paint.colour, vertex->colour, 3);
+    const bool is_clockwise = own.area > 0.0;
+    struct side left = {.to = top, .turn = is_clockwise ? own.count - 1 : 1};
+    struct side right = {.to = top, .turn = is_clockwise ? 1 : own.count - 1};
+    for (; y < last; y++) {
+        const int end = first_from(crossing(&right, &own, y), to.left, to.right);
+        for (int x = first_from(crossing(&left, &own, y), to.left, to.right); x < end; x += RUN) {
+            put_run(&to, &paint, work, x, y, end - x < RUN ? end - x : RUN);
         }
     }
+}
+
+static void put_piece(const struct target *target, const struct piece *piece)
+{
+    if (!target->plain) {
+        put_rows(target, piece, ANY);
+    } else if (piece->straight) {
+        put_rows(target, piece, STRAIGHT_INK);
+    } else {
+        put_rows(target, piece, ROUND_INK);
+    }
+}
+
+static void put_triangle(const struct target *target, const struct corner *a, const struct corner *b,
+                         const struct corner *c)
+{
+    const struct piece piece = {.corner = {*a, *b, *c}, .count = 3, .area = area_of(a, b, c)};
+    if (fabs(piece.area) > 0.0) {
+        put_piece(target, &piece);
+    }
+}
+
+/* Puts the first two triangles of a strip if they are one piece. Its last corner is w[0], w[1] and w[2] of the
+   others. */
+static bool put_pair(const struct target *target, const struct corner p[4])
+{
+    const double area = area_of(&p[0], &p[1], &p[2]);
+    const double w[3] = {area_of(&p[3], &p[1], &p[2]) / area, area_of(&p[0], &p[3], &p[2]) / area,
+                         area_of(&p[0], &p[1], &p[3]) / area};
+    if (!(w[0] < 0.0 && w[1] > 0.0 && w[2] > 0.0)) {
+        return false;
+    }
+    const struct gm_vertex *a = p[0].vertex, *b = p[1].vertex, *c = p[2].vertex, *d = p[3].vertex;
+    const double near = 1.0 / 64.0; /* corners are rounded to a quarter of it */
+    const double across = w[0] * (double)a->across + w[1] * (double)b->across + w[2] * (double)c->across;
+    const double along = w[0] * (double)a->along + w[1] * (double)b->along + w[2] * (double)c->along;
+    if (!(fabs(across - (double)d->across) < near && fabs(along - (double)d->along) < near)) {
+        return false;
+    }
+    const struct piece piece = {
+        .corner = {p[0], p[1], p[3], p[2]},
+        .count = 4,
+        .area = area,
+        .straight = a->along == 0.0f && b->along == 0.0f && c->along == 0.0f && d->along == 0.0f,
+    };
+    put_piece(target, &piece);
+    return true;
 }
 
 static void put_call(const struct target *target, const struct gm_batch *batch)
 {
     const struct gm_draw_call *call = target->call;
+    struct corner corner[4];
     if (call->indexed) {
         const uint32_t *indices = batch->indices + call->first;
         for (size_t i = 0; i + 3 <= call->count; i += 3) {
-            put_triangle(target, corner_of(batch->vertices + indices[i]),
-                         corner_of(batch->vertices + indices[i + 1]),
-                         corner_of(batch->vertices + indices[i + 2]));
+            for (int k = 0; k < 3; k++) {
+                corner[k] = corner_of(batch->vertices + indices[i + (size_t)k]);
+            }
+            put_triangle(target, &corner[0], &corner[1], &corner[2]);
         }
         return;
     }
+    const bool is_flat = call->program != GM_PROGRAM_FIELD && call->program != GM_PROGRAM_IMAGE;
     const struct gm_vertex *vertices = batch->vertices + call->first;
-    struct corner corner[3];
-    for (size_t i = 0; i < call->count; i++) {
-        corner[i % 3] = corner_of(&vertices[i]);
-        if (i >= 2) {
-            put_triangle(target, corner[0], corner[1], corner[2]);
+    for (size_t i = 0; i + 3 <= call->count; i++) {
+        for (size_t k = 0; k < 4 && i + k < call->count; k++) {
+            corner[k] = corner_of(&vertices[i + k]);
+        }
+        if (is_flat && i + 4 <= call->count && put_pair(target, corner)) {
+            i++;
+        } else {
+            put_triangle(target, &corner[0], &corner[1], &corner[2]);
         }
     }
 }
@@ -401,8 +493,8 @@ static bool rasterise(struct rasteriser *rasteriser, const struct gm_batch *batc
     }
     const struct gm_rgb paper = gm_theme_colour(rasteriser->theme, GM_PAPER);
     const uint32_t blank = pixel_of((const uint8_t[4]){paper.r, paper.g, paper.b, 255});
-    const size_t pixels = (size_t)rasteriser->width * (size_t)rasteriser->height;
-    for (size_t i = 0; i < pixels; i++) {
+    const size_t total = (size_t)rasteriser->width * (size_t)rasteriser->height;
+    for (size_t i = 0; i < total; i++) {
         memcpy(rgba + 4 * i, &blank, sizeof blank);
     }
     for (size_t i = 0; i < batch->call_count; i++) {
@@ -413,6 +505,9 @@ static bool rasterise(struct rasteriser *rasteriser, const struct gm_batch *batc
             .call = call,
             .atlas = atlas,
             .rgba = rgba,
+            .width = rasteriser->width,
+            .wholly = call->program == GM_PROGRAM_CORE,
+            .plain = call->program <= GM_PROGRAM_CORE && call->stencil == GM_STENCIL_NONE,
             .left = within(scissor[0], rasteriser->width),
             .top = within(scissor[1], rasteriser->height),
             .right = within(scissor[0] + scissor[2], rasteriser->width),
@@ -501,9 +596,10 @@ void gm_canvas_settle(void)
 static bool rasteriser_open(struct rasteriser *rasteriser, const struct gm_appearance *look, char *message)
 {
     *rasteriser = (struct rasteriser){.width = look->width, .height = look->height, .theme = look->theme};
-    return (look->width >= 1 && look->height >= 1 && look->width <= MOST_SIDE && look->height <= MOST_SIDE) ||
-           gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
-                     look->width, look->height, MOST_SIDE);
+    return (look->width >= LANES && look->height >= LANES && look->width <= MOST_SIDE &&
+            look->height <= MOST_SIDE) ||
+           gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is %d to %d.",
+                     look->width, look->height, LANES, MOST_SIDE);
 }
 
 static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look, char *message)
@@ -570,8 +666,8 @@ __attribute__((target("ssse3"))) static size_t shuffle_alpha(const unsigned char
     const __m128i kept = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
     size_t i = 0;
     for (; i + 6 <= count; i += 4) {
-        const __m128i pixels = _mm_loadu_si128((const __m128i *)(rgba + 4 * i));
-        _mm_storeu_si128((__m128i *)(rgb + 3 * i), _mm_shuffle_epi8(pixels, kept));
+        const __m128i four = _mm_loadu_si128((const __m128i *)(rgba + 4 * i));
+        _mm_storeu_si128((__m128i *)(rgb + 3 * i), _mm_shuffle_epi8(four, kept));
     }
     return i;
 }

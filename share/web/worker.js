@@ -119,7 +119,9 @@ function draw(handle, width, height, scale, dark) {
         pixels = web.___wrap_malloc(size);
         capacity = pixels ? size : 0; // without memory a smaller picture may succeed
     }
-    Object.assign(paper, {width, height});
+    if (paper.width !== width || paper.height !== height) { // a size that is set, even to itself, makes a new canvas
+        Object.assign(paper, {width, height});
+    }
     call('theme', handle, dark ? 'dark' : 'light');
     const status = call('draw', handle, width, height, scale, pixels);
     if (status !== 0 && status !== 2) { // 2: a lane has failed, and is drawn

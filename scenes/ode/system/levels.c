@@ -5,6 +5,7 @@
 #include "scenes/ode/system/parts.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -227,28 +228,28 @@ void gm_system_draw_zeros(struct gm_picture *picture, struct gm_panel *panel, st
 {
     static const double zero = 0;
     const struct gm_window box = {{panel->x.low, panel->y.low}, {panel->x.high, panel->y.high}};
-    const size_t width = cells[0] + 1, corners = width * (cells[1] + 1), count = cells[0] * cells[1];
+    const size_t width = cells[0] + 1, corners = width * (cells[1] + 1);
     double *points = gm_picture_memory(picture, 2 * corners * sizeof *points);
-    int *triangles = gm_picture_memory(picture, 6 * count * sizeof *triangles);
+    int *triangles = gm_picture_memory(picture, 6 * cells[0] * cells[1] * sizeof *triangles);
+    uint8_t *signs = gm_picture_memory(picture, corners); /* 1: above 0; 2: below; 0: neither */
+    for (size_t i = 0; i < corners; i++) {
+        signs[i] = (uint8_t)((values[i] > 0) | (values[i] < 0) << 1);
+    }
     size_t crossed = 0; /* cells whose corners are not all above 0, or all below */
-    for (size_t cell = 0; cell < count; cell++) {
-        const size_t i = cell % cells[0], j = cell / cells[0];
-        const int here = (int)(j * width + i), over = here + (int)width,
-                  around[4] = {here, here + 1, over, over + 1};
-        int above = 0, below = 0;
-        for (int k = 0; k < 4; k++) {
-            above += values[around[k]] > 0;
-            below += values[around[k]] < 0;
+    for (size_t j = 0; j < cells[1]; j++) {
+        for (size_t i = 0; i < cells[0]; i++) {
+            const int here = (int)(j * width + i), over = here + (int)width,
+                      around[4] = {here, here + 1, over, over + 1};
+            if (signs[here] & signs[here + 1] & signs[over] & signs[over + 1]) {
+                continue;
+            }
+            for (size_t k = 0; k < 4; k++) {
+                points[2 * around[k]] = corner(&box, 0, i + k % 2, cells[0]);
+                points[2 * around[k] + 1] = corner(&box, 1, j + k / 2, cells[1]);
+            }
+            memcpy(triangles + 6 * crossed++, (const int[]){here, here + 1, over + 1, here, over + 1, over},
+                   6 * sizeof *triangles);
         }
-        if (above == 4 || below == 4) {
-            continue;
-        }
-        for (size_t k = 0; k < 4; k++) {
-            points[2 * around[k]] = corner(&box, 0, i + k % 2, cells[0]);
-            points[2 * around[k] + 1] = corner(&box, 1, j + k / 2, cells[1]);
-        }
-        memcpy(triangles + 6 * crossed++, (const int[]){here, here + 1, over + 1, here, over + 1, over},
-               6 * sizeof *triangles);
     }
     gm_mark_level_lines(picture, panel, style, points, values, corners, triangles, 2 * crossed, &zero, 1);
 }
