@@ -13,6 +13,13 @@
 
 #define GM_INLINE static inline __attribute__((always_inline, unused))
 
+/* Makes a loop of constant count, at most 8, into its turns. */
+#ifdef __clang__
+#define GM_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define GM_UNROLL _Pragma("GCC unroll 8")
+#endif
+
 /* A lane type as wide as a register: wider ones live in memory (measured: four times slower). */
 #if defined(__AVX512F__)
 enum { GM_WIDTH = 8 };

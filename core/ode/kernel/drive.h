@@ -37,7 +37,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     const bool whole = first + (size_t)(GM_LANES * GM_ABREAST) <= task->problem->m;
     struct K(counts) counts[GM_ABREAST];
     struct K(block) block[GM_ABREAST];
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int b = 0; b < GM_ABREAST; b++) {
         const int64_t rest = (int64_t)task->problem->m - (int64_t)first - b * (int64_t)GM_LANES;
         counts[b] = (struct K(counts)){.lanes = rest < 0          ? 0
@@ -54,20 +54,20 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         const int64_t burst = left < most ? left : most;
         struct K(counts) counts_before[GM_ABREAST];
         struct K(block) before[GM_ABREAST];
-#pragma GCC unroll 8
+        GM_UNROLL
         for (int b = 0; b < GM_ABREAST; b++) {
             counts_before[b] = counts[b];
         }
         /* the start of the first burst is still in memory: single steps need no copy */
         if (done > 0) {
-#pragma GCC unroll 8
+            GM_UNROLL
             for (int b = 0; b < GM_ABREAST; b++) {
                 before[b] = block[b];
             }
         }
         mask solved = K(all)(), farthest = K(other)(solved);
         for (int64_t i = 0; i < burst; i++) {
-#pragma GCC unroll 8
+            GM_UNROLL
             for (int b = 0; b < GM_ABREAST; b++) {
                 solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
                 farthest = K(farther)(farthest, K(block_distance)(&block[b], task));
@@ -88,7 +88,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
             progress->unsolved =
                 counts[0].unsolved; /* blocks of implicit schemes are not made side by side */
         }
-#pragma GCC unroll 8
+        GM_UNROLL
         for (int b = 0; b < GM_ABREAST; b++) {
             if (done > 0) {
                 block[b] = before[b];
@@ -100,7 +100,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         }
         most = 1;
     }
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int b = 0; b < GM_ABREAST; b++) {
         K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, whole);
         progress->evaluations += counts[b].evaluations;
@@ -117,7 +117,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
 {
     const void *parameters = task->problem->parameters;
     const bool stiff = gm_ode_of(task->problem)->stiff;
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int b = 0; b < GM_ABREAST; b++) {
         K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
         K(block_ask_ahead)(task, first + (size_t)(b * GM_LANES));
@@ -125,7 +125,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
     }
     int64_t left = task->steps;
     do {
-#pragma GCC unroll 8
+        GM_UNROLL
         for (int b = 0; b < GM_ABREAST; b++) {
             *solved &= GM_STEP(row, &block[b], task->dt, parameters, compensated, stiff, counts);
             *farthest = K(farther)(*farthest, K(block_distance)(&block[b], task));
@@ -136,7 +136,7 @@ GM_INLINE void GM_DRIVE_NAME(few)(const struct gm_task *task, const GM_ROW *row,
 GM_INLINE void GM_DRIVE_NAME(put)(const struct gm_task *task, bool compensated, size_t first,
                                   const struct K(block) * block)
 {
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int b = 0; b < GM_ABREAST; b++) {
         K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, true);
     }

@@ -7,13 +7,13 @@ GM_INLINE mask K(explicit_step)(const struct gm_tableau *tableau, struct K(block
 {
     (void)stiff;
     real k[GM_EXPLICIT_LISTED_STAGES][GM_COMPONENTS];
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int i = 0; i < tableau->stages; i++) {
         real stage[GM_COMPONENTS];
-#pragma GCC unroll 8
+        GM_UNROLL
         for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
             some at = K(take)(block->y + c);
-#pragma GCC unroll 8
+            GM_UNROLL
             for (int j = 0; j < GM_EXPLICIT_LISTED_STAGES; j++) { /* a count that every compiler can unroll */
                 if (j < i && tableau->a[i][j] != 0) {
                     at += h * tableau->a[i][j] * K(take)(&k[j][c]);
@@ -23,10 +23,10 @@ GM_INLINE mask K(explicit_step)(const struct gm_tableau *tableau, struct K(block
         }
         K(field)(stage, k[i], parameters);
     }
-#pragma GCC unroll 8
+    GM_UNROLL
     for (int c = 0; c < GM_COMPONENTS; c += GM_AT_ONCE) {
         some increment = h * tableau->b[0] * K(take)(&k[0][c]);
-#pragma GCC unroll 8
+        GM_UNROLL
         for (int i = 1; i < tableau->stages; i++) {
             increment += h * tableau->b[i] * K(take)(&k[i][c]);
         }
