@@ -237,8 +237,8 @@ double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t h
 
 /* The force of the flow on the wall of a hole, over the density, after the last step: the pressure at the
    middles of its edges, where the momentum equation along half dual edges has the pressure of the
-   triangles, and friction, viscosity times vorticity. Returns false without a pressure. */
-bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
+   triangles, and friction, viscosity times vorticity. */
+void gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
 
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
    exp(-2 (distance / largest)^2); theta likewise. gm_flow_sample returns false if the mesh is too small. */

@@ -227,30 +227,55 @@ double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t h
     return sum;
 }
 
-bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2])
+/* The change of the pressure from the triangle at a wall's edge to the one at the wall's next edge, by the triangles around
+   the vertex between the two. */
+static double pressure_around(const struct gm_flow *flow, const double *y, size_t edge, int vertex)
+{
+    const struct gm_complex *complex = flow->complex;
+    double change = 0;
+    const int *beside = complex->edge_triangle + 2 * edge;
+    for (int t = beside[0] >= 0 ? beside[0] : beside[1]; t >= 0;) {
+        size_t e = edge;
+        for (int k = 0; k < 3; k++) {
+            const size_t other = (size_t)complex->triangle_edge[3 * t + k];
+            const bool has = complex->edge[2 * other] == vertex || complex->edge[2 * other + 1] == vertex;
+            e = other != edge && has ? other : e;
+        }
+        const bool left = complex->edge_triangle[2 * e] == t;
+        t = complex->edge_triangle[2 * e + (left ? 1 : 0)];
+        change += t < 0 ? 0 : (left ? -1 : 1) * pressure_step(flow, y, e);
+        edge = e;
+    }
+    return change;
+}
+
+void gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2])
 {
     const struct gm_complex *complex = flow->complex;
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
-    double *pressure = malloc(complex->triangles * sizeof *pressure);
-    const bool known = pressure && gm_flow_pressure(flow, y, pressure);
+    size_t first = 0;
     force[0] = force[1] = 0;
-    for (size_t b = 0; known && b < complex->boundary; b++) {
-        const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[gm_complex_next(complex, b)];
-        const size_t e = (size_t)complex->boundary_edge[b];
-        if (flow->hole[v] != (int)hole) {
-            continue;
-        }
+    while (first < complex->boundary && flow->hole[complex->boundary_vertex[first]] != (int)hole) {
+        first++;
+    }
+    if (first == complex->boundary) {
+        return;
+    }
+    double pressure = 0; /* at the first edge: around the hole a constant has no force */
+    size_t b = first;
+    do {
+        const size_t next = gm_complex_next(complex, b), e = (size_t)complex->boundary_edge[b];
+        const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[next];
         const bool left = complex->edge_triangle[2 * e] >= 0;
-        const double step = pressure_step(flow, y, e),
-                     here = pressure[complex->edge_triangle[2 * e + (left ? 0 : 1)]] + (left ? -step : step);
+        const double here = pressure + (left ? -1 : 1) * pressure_step(flow, y, e);
         const double friction = -flow->viscosity * (omega[v] + omega[w]) / 2;
         const double x = complex->point[2 * w] - complex->point[2 * v],
                      z = complex->point[2 * w + 1] - complex->point[2 * v + 1];
         force[0] += here * z + friction * x;
         force[1] += -here * x + friction * z;
-    }
-    free(pressure);
-    return known;
+        pressure += pressure_around(flow, y, e, w);
+        b = next;
+    } while (b != first);
 }
 
 enum { NEAREST = 24, TERMS = 10, VALUES = 4 };

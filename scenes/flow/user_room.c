@@ -188,7 +188,8 @@ static double observe_local(const struct gm_view *view)
         return stepped ? gm_flow_heat(flow, view->state, number) : NAN;
     case DRAG:
     case LIFT:
-        return stepped && gm_flow_force(flow, view->state, number, force) ? force[subject->what - DRAG] : NAN;
+        gm_flow_force(flow, view->state, number, force);
+        return stepped ? force[subject->what - DRAG] : NAN;
     default:
         return gm_flow_circulation(flow, view->state, number);
     }

@@ -312,7 +312,7 @@ static double couette(int n, double shaken)
         inner = r < 1 + 1e-9 ? y[v] : inner;
         outer = r > 2 - 1e-9 ? y[v] : outer;
     }
-    assert_true(gm_flow_force(flow, y, 1, force));
+    gm_flow_force(flow, y, 1, force);
     assert_true(shaken > 0 || hypot(force[0], force[1]) < 1e-10);
     gm_run_close(run);
     free(start);
