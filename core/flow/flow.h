@@ -235,9 +235,9 @@ bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *press
 /* The circulation around a hole, from 1, counter-clockwise: along the dual edges around its wall. */
 double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t hole);
 
-/* The force of the flow on the wall of a hole, over the density, after the last step: the pressure at the
-   middles of its edges, where the momentum equation along half dual edges has the pressure of the
-   triangles, and friction, viscosity times vorticity. */
+/* The force of the flow on the wall of a hole, over the density, after at least one step: the pressure at the
+   middles of its edges, extrapolated from the triangles by the momentum equation on the half dual edges, and
+   friction, viscosity times vorticity. The pressure is known up to a constant, which has no force on a closed wall. */
 void gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
 
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight

@@ -227,24 +227,22 @@ double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t h
     return sum;
 }
 
-/* The change of the pressure from the triangle at a wall's edge to the one at the wall's next edge, by the triangles around
-   the vertex between the two. */
+/* The pressure at a wall's next edge minus that at this one, summed over the triangles around their common vertex. */
 static double pressure_around(const struct gm_flow *flow, const double *y, size_t edge, int vertex)
 {
     const struct gm_complex *complex = flow->complex;
-    double change = 0;
     const int *beside = complex->edge_triangle + 2 * edge;
+    double change = 0;
     for (int t = beside[0] >= 0 ? beside[0] : beside[1]; t >= 0;) {
-        size_t e = edge;
-        for (int k = 0; k < 3; k++) {
-            const size_t other = (size_t)complex->triangle_edge[3 * t + k];
-            const bool has = complex->edge[2 * other] == vertex || complex->edge[2 * other + 1] == vertex;
-            e = other != edge && has ? other : e;
+        int k = 0;
+        while (complex->triangle[3 * t + k] != vertex) {
+            k++;
         }
-        const bool left = complex->edge_triangle[2 * e] == t;
-        t = complex->edge_triangle[2 * e + (left ? 1 : 0)];
-        change += t < 0 ? 0 : (left ? -1 : 1) * pressure_step(flow, y, e);
-        edge = e;
+        const size_t next =
+            (size_t)complex->triangle_edge[3 * t + k]; /* on from the vertex, counter-clockwise */
+        const bool left = complex->edge_triangle[2 * next] == t;
+        t = complex->edge_triangle[2 * next + (left ? 1 : 0)];
+        change += t < 0 ? 0 : (left ? -1 : 1) * pressure_step(flow, y, next);
     }
     return change;
 }

@@ -13,7 +13,7 @@
 
 #define GM_INLINE static inline __attribute__((always_inline, unused))
 
-/* Makes a loop of constant count, at most 8, into its turns. */
+/* Unrolls the next loop, whose count is known at compile time (gcc: by at most 8). */
 #ifdef __clang__
 #define GM_UNROLL _Pragma("clang loop unroll(full)")
 #else

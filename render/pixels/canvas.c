@@ -28,7 +28,7 @@
 enum {
     MAPS = 2,
     SHADES = 16 * 255 + 1, /* shades of a map */
-    RUN = 256,             /* pixels of a run, along which values are summed in single precision */
+    RUN = 256,             /* pixels of a run, along which values are in single precision */
     MOST_SIDE = 16384,
 };
 
@@ -50,7 +50,8 @@ struct target {
     int width;
     int left, top, right, bottom; /* only these pixels may change */
     bool wholly;                  /* ink on wholly covered pixels alone */
-    bool plain;                   /* ink without a stencil */
+    bool is_ink, plain;           /* plain: ink without a stencil */
+    bool paired;                  /* triangles of a strip may be put as one polygon */
 };
 
 /* ---- four pixels at a time ---- */
@@ -90,21 +91,21 @@ INLINE pixels mixed(pixels under, pixels over, pixels alpha)
     return (pixels)even | ((pixels)odd & ~low);
 }
 
-/* ---- a piece of a plane, with values at its corners ---- */
+/* ---- polygons with values at their corners ---- */
 
 struct corner {
     double x, y; /* relative to the middle of the first pixel */
     const struct gm_vertex *vertex;
 };
 
-/* A value on the plane: at the middle of the first pixel, and its change per pixel. */
+/* A linear function: its value at the middle of the first pixel, and its change per pixel. */
 struct ramp {
     double start, right, down;
 };
 
-/* A triangle, or two of a strip that are convex together and whose values lie on one plane: most strips are
-   strokes of a few pixels, and half as many pieces cost half as much. */
-struct piece {
+/* A convex polygon: a triangle, or two of a strip that are convex together and whose values are one linear
+   function. Most strips are strokes of a few pixels, and half as many polygons cost half as much. */
+struct polygon {
     struct corner corner[4]; /* round it */
     int count;
     double area;   /* of the parallelogram of the first, second and last corner, with its sign */
@@ -112,7 +113,7 @@ struct piece {
 };
 
 struct ramps {
-    struct ramp across, along, light; /* light of 255; a straight piece needs only the first */
+    struct ramp across, along, light; /* light of 255; a straight polygon needs only the first */
 };
 
 /* Rounds to 1/256: a double this large has no digits below that. */
@@ -134,24 +135,25 @@ INLINE double area_of(const struct corner *a, const struct corner *b, const stru
 }
 
 /* Returns the ramp of a value that is a, b and c at the first, second and last corner. */
-INLINE struct ramp ramp_through(const struct piece *piece, float a, float b, float c)
+INLINE struct ramp ramp_through(const struct polygon *polygon, float a, float b, float c)
 {
-    const struct corner *p = &piece->corner[0], *q = &piece->corner[1], *r = &piece->corner[piece->count - 1];
-    const double first = ((double)b - (double)a) / piece->area,
-                 second = ((double)c - (double)a) / piece->area;
+    const struct corner *p = &polygon->corner[0], *q = &polygon->corner[1],
+                        *r = &polygon->corner[polygon->count - 1];
+    const double first = ((double)b - (double)a) / polygon->area,
+                 second = ((double)c - (double)a) / polygon->area;
     const double right = first * (r->y - p->y) - second * (q->y - p->y);
     const double down = second * (q->x - p->x) - first * (r->x - p->x);
     return (struct ramp){(double)a - right * p->x - down * p->y, right, down};
 }
 
-INLINE struct ramps ramps_of(const struct piece *piece)
+INLINE struct ramps ramps_of(const struct polygon *polygon)
 {
-    const struct gm_vertex *a = piece->corner[0].vertex, *b = piece->corner[1].vertex,
-                           *c = piece->corner[piece->count - 1].vertex;
-    struct ramps ramps = {.across = ramp_through(piece, a->across, b->across, c->across)};
-    if (!piece->straight) {
-        ramps.along = ramp_through(piece, a->along, b->along, c->along);
-        ramps.light = ramp_through(piece, a->colour[1], b->colour[1], c->colour[1]);
+    const struct gm_vertex *a = polygon->corner[0].vertex, *b = polygon->corner[1].vertex,
+                           *c = polygon->corner[polygon->count - 1].vertex;
+    struct ramps ramps = {.across = ramp_through(polygon, a->across, b->across, c->across)};
+    if (!polygon->straight) {
+        ramps.along = ramp_through(polygon, a->along, b->along, c->along);
+        ramps.light = ramp_through(polygon, a->colour[1], b->colour[1], c->colour[1]);
     }
     return ramps;
 }
@@ -165,8 +167,8 @@ INLINE reals values_of(struct ramp ramp, int x, int y, reals step)
 
 /* ---- runs of pixels of one row ---- */
 
-/* What a piece paints. It and the target are variables of the function that paints, as compilers see that a
-   pixel stored cannot change these. */
+/* What a polygon paints. It and the target are local copies, so that the compiler knows that stored pixels do
+   not change them. */
 struct paint {
     struct ramps ramps;
     bool straight;
@@ -266,27 +268,26 @@ INLINE pixels sifted(const struct gm_draw_call *call, unsigned char *group, pixe
     return covered;
 }
 
-/* What a function that puts pixels is compiled for: most of them are ink without a stencil. */
-enum work { STRAIGHT_INK, ROUND_INK, ANY };
+/* Variants that put_row is compiled for: most pixels are ink without a stencil. */
+enum variant { STRAIGHT_INK, ROUND_INK, ANY };
 
 /* Draws at most RUN pixels of a row from x on. */
-INLINE void put_run(const struct target *target, const struct paint *paint, enum work work, int x, int y,
-                    int count)
+INLINE void put_row(const struct target *target, const struct paint *paint, enum variant variant, int x,
+                    int y, int count)
 {
     const int last = target->width - LANES - x; /* the last four of the row */
     const size_t place = (size_t)y * (size_t)target->width + (size_t)x;
     const uint32_t ink = pixel_of(paint->colour);
-    const enum gm_program program = target->call->program;
     for (int i = 0; i < count; i += LANES) {
         const int first = i < last ? i : last;
         const choices number = (choices){0, 1, 2, 3} + first;
         const pixels within = (pixels)((number >= i) & (number < count));
         const reals step = __builtin_convertvector(number, reals);
         pixels colour = {ink, ink, ink, ink}, covered;
-        if (work != ANY || program == GM_PROGRAM_INK || program == GM_PROGRAM_CORE) {
-            covered = cover_of_ink(paint, work == STRAIGHT_INK || (work == ANY && paint->straight),
+        if (variant != ANY || target->is_ink) {
+            covered = cover_of_ink(paint, variant == STRAIGHT_INK || (variant == ANY && paint->straight),
                                    target->wholly, x, y, step);
-        } else if (program == GM_PROGRAM_TEXT) {
+        } else if (target->call->program == GM_PROGRAM_TEXT) {
             covered = cover_of_letters(paint, target->atlas, x, y, step);
         } else {
             const uint32_t alpha = byte_of(paint->half);
@@ -295,7 +296,7 @@ INLINE void put_run(const struct target *target, const struct paint *paint, enum
         }
         covered &= within;
         const size_t at = 4 * (place + (size_t)first);
-        if (work == ANY && target->call->stencil != GM_STENCIL_NONE) {
+        if (variant == ANY && target->call->stencil != GM_STENCIL_NONE) {
             covered = sifted(target->call, (unsigned char *)target->rasteriser->groups + at, within, covered);
         }
         const pixels painted = mixed(load(target->rgba + at), colour, covered);
@@ -303,7 +304,7 @@ INLINE void put_run(const struct target *target, const struct paint *paint, enum
     }
 }
 
-/* ---- pieces ---- */
+/* ---- polygons ---- */
 
 /* Returns the first whole number that is not below a place, clamped to low and high. */
 INLINE int first_from(double place, int low, int high)
@@ -318,22 +319,22 @@ INLINE int first_from(double place, int low, int high)
     return whole + (whole < place);
 }
 
-/* One side of a piece: the edge that crosses a row, on the way down from corner to corner. */
+/* One side of a polygon: the edge that crosses a row, on the way down from corner to corner. */
 struct side {
-    int to, turn; /* the next corner is `turn` corners on */
+    int end, turn; /* the lower corner; the next is `turn` corners on */
     double x, y, slope;
 };
 
 /* Returns where a side crosses row y, which is above the lowest corner. */
-INLINE double crossing(struct side *side, const struct piece *piece, int y)
+INLINE double crossing(struct side *side, const struct polygon *polygon, int y)
 {
-    const struct corner *to = &piece->corner[side->to];
+    const struct corner *to = &polygon->corner[side->end];
     if (!(y < to->y)) {
         const struct corner *from;
         do {
             from = to;
-            side->to = (side->to + side->turn) % piece->count;
-            to = &piece->corner[side->to];
+            side->end = (side->end + side->turn) % polygon->count;
+            to = &polygon->corner[side->end];
         } while (!(y < to->y));
         side->x = from->x;
         side->y = from->y;
@@ -342,60 +343,65 @@ INLINE double crossing(struct side *side, const struct piece *piece, int y)
     return side->x + side->slope * (y - side->y);
 }
 
-INLINE void put_rows(const struct target *target, const struct piece *piece, enum work work)
+INLINE void put_polygon_by(const struct target *shared, const struct polygon *given, enum variant variant)
 {
-    const struct target to = *target;
-    const struct piece own = *piece;
+    const struct target target = *shared;
+    const struct polygon polygon = *given;
     int top = 0;
-    double bottom = own.corner[0].y;
-    for (int i = 1; i < own.count; i++) {
-        top = own.corner[i].y < own.corner[top].y ? i : top;
-        bottom = own.corner[i].y > bottom ? own.corner[i].y : bottom;
+    double bottom = polygon.corner[0].y;
+    for (int i = 1; i < polygon.count; i++) {
+        top = polygon.corner[i].y < polygon.corner[top].y ? i : top;
+        bottom = polygon.corner[i].y > bottom ? polygon.corner[i].y : bottom;
     }
-    int y = first_from(own.corner[top].y, to.top, to.bottom);
-    const int last = first_from(bottom, to.top, to.bottom);
+    int y = first_from(polygon.corner[top].y, target.top, target.bottom);
+    const int last = first_from(bottom, target.top, target.bottom);
     if (y == last) {
         return;
     }
-    const struct gm_vertex *vertex = own.corner[0].vertex;
-    struct paint paint = {ramps_of(&own), own.straight, vertex->half, vertex->colour[3], {0, 0, 0, 255}};
+    const struct gm_vertex *vertex = polygon.corner[0].vertex;
+    struct paint paint = {
+        ramps_of(&polygon), polygon.straight, vertex->half, vertex->colour[3], {0, 0, 0, 255}};
     memcpy(paint.colour, vertex->colour, 3);
-    const bool is_clockwise = own.area > 0.0;
-    struct side left = {.to = top, .turn = is_clockwise ? own.count - 1 : 1};
-    struct side right = {.to = top, .turn = is_clockwise ? 1 : own.count - 1};
+    const bool is_clockwise = polygon.area > 0.0;
+    struct side left = {.end = top, .turn = is_clockwise ? polygon.count - 1 : 1};
+    struct side right = {.end = top, .turn = is_clockwise ? 1 : polygon.count - 1};
     for (; y < last; y++) {
-        const int end = first_from(crossing(&right, &own, y), to.left, to.right);
-        for (int x = first_from(crossing(&left, &own, y), to.left, to.right); x < end; x += RUN) {
-            put_run(&to, &paint, work, x, y, end - x < RUN ? end - x : RUN);
+        const int end = first_from(crossing(&right, &polygon, y), target.left, target.right);
+        for (int x = first_from(crossing(&left, &polygon, y), target.left, target.right); x < end; x += RUN) {
+            put_row(&target, &paint, variant, x, y, end - x < RUN ? end - x : RUN);
         }
     }
 }
 
-static void put_piece(const struct target *target, const struct piece *piece)
+static void put_polygon(const struct target *target, const struct polygon *polygon)
 {
     if (!target->plain) {
-        put_rows(target, piece, ANY);
-    } else if (piece->straight) {
-        put_rows(target, piece, STRAIGHT_INK);
+        put_polygon_by(target, polygon, ANY);
+    } else if (polygon->straight) {
+        put_polygon_by(target, polygon, STRAIGHT_INK);
     } else {
-        put_rows(target, piece, ROUND_INK);
+        put_polygon_by(target, polygon, ROUND_INK);
     }
 }
 
 static void put_triangle(const struct target *target, const struct corner *a, const struct corner *b,
                          const struct corner *c)
 {
-    const struct piece piece = {.corner = {*a, *b, *c}, .count = 3, .area = area_of(a, b, c)};
-    if (fabs(piece.area) > 0.0) {
-        put_piece(target, &piece);
+    const struct polygon polygon = {.corner = {*a, *b, *c}, .count = 3, .area = area_of(a, b, c)};
+    if (fabs(polygon.area) > 0.0) {
+        put_polygon(target, &polygon);
     }
 }
 
-/* Puts the first two triangles of a strip if they are one piece. Its last corner is w[0], w[1] and w[2] of the
-   others. */
+/* Puts the first two triangles of a strip as one polygon if they make one. Their colours are the same, as they share an
+   edge. */
 static bool put_pair(const struct target *target, const struct corner p[4])
 {
     const double area = area_of(&p[0], &p[1], &p[2]);
+    if (area == 0.0) {
+        return false;
+    }
+    /* barycentric coordinates of the last corner */
     const double w[3] = {area_of(&p[3], &p[1], &p[2]) / area, area_of(&p[0], &p[3], &p[2]) / area,
                          area_of(&p[0], &p[1], &p[3]) / area};
     if (!(w[0] < 0.0 && w[1] > 0.0 && w[2] > 0.0)) {
@@ -408,13 +414,13 @@ static bool put_pair(const struct target *target, const struct corner p[4])
     if (!(fabs(across - (double)d->across) < near && fabs(along - (double)d->along) < near)) {
         return false;
     }
-    const struct piece piece = {
+    const struct polygon polygon = {
         .corner = {p[0], p[1], p[3], p[2]},
         .count = 4,
         .area = area,
         .straight = a->along == 0.0f && b->along == 0.0f && c->along == 0.0f && d->along == 0.0f,
     };
-    put_piece(target, &piece);
+    put_polygon(target, &polygon);
     return true;
 }
 
@@ -432,13 +438,12 @@ static void put_call(const struct target *target, const struct gm_batch *batch)
         }
         return;
     }
-    const bool is_flat = call->program != GM_PROGRAM_FIELD && call->program != GM_PROGRAM_IMAGE;
     const struct gm_vertex *vertices = batch->vertices + call->first;
     for (size_t i = 0; i + 3 <= call->count; i++) {
         for (size_t k = 0; k < 4 && i + k < call->count; k++) {
             corner[k] = corner_of(&vertices[i + k]);
         }
-        if (is_flat && i + 4 <= call->count && put_pair(target, corner)) {
+        if (target->paired && i + 4 <= call->count && put_pair(target, corner)) {
             i++;
         } else {
             put_triangle(target, &corner[0], &corner[1], &corner[2]);
@@ -500,6 +505,7 @@ static bool rasterise(struct rasteriser *rasteriser, const struct gm_batch *batc
     for (size_t i = 0; i < batch->call_count; i++) {
         const struct gm_draw_call *call = &batch->calls[i];
         const int *scissor = call->scissor;
+        const bool is_ink = call->program == GM_PROGRAM_INK || call->program == GM_PROGRAM_CORE;
         const struct target target = {
             .rasteriser = rasteriser,
             .call = call,
@@ -507,7 +513,12 @@ static bool rasterise(struct rasteriser *rasteriser, const struct gm_batch *batc
             .rgba = rgba,
             .width = rasteriser->width,
             .wholly = call->program == GM_PROGRAM_CORE,
-            .plain = call->program <= GM_PROGRAM_CORE && call->stencil == GM_STENCIL_NONE,
+            .is_ink = is_ink,
+            .plain = is_ink && call->stencil == GM_STENCIL_NONE,
+            /* A rounding of values decides which pixels are covered wholly, and which a group has painted. Values of
+               fields are not in pixels. */
+            .paired = call->stencil == GM_STENCIL_NONE &&
+                      (call->program == GM_PROGRAM_INK || call->program == GM_PROGRAM_TEXT),
             .left = within(scissor[0], rasteriser->width),
             .top = within(scissor[1], rasteriser->height),
             .right = within(scissor[0] + scissor[2], rasteriser->width),
@@ -596,7 +607,7 @@ void gm_canvas_settle(void)
 static bool rasteriser_open(struct rasteriser *rasteriser, const struct gm_appearance *look, char *message)
 {
     *rasteriser = (struct rasteriser){.width = look->width, .height = look->height, .theme = look->theme};
-    return (look->width >= LANES && look->height >= LANES && look->width <= MOST_SIDE &&
+    return (look->width >= LANES && look->height >= 1 && look->width <= MOST_SIDE &&
             look->height <= MOST_SIDE) ||
            gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is %d to %d.",
                      look->width, look->height, LANES, MOST_SIDE);

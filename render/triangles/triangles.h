@@ -26,8 +26,8 @@ enum gm_program {
 /* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), in pixels: a stroke's body has along = 0, a
    round cap counts along from the end, a disc has both from the centre. Text: (across, along) is a place in
    the glyph atlas, in texels; half is 1. Fields: across is the value from 0 to 1, along 0, half the alpha.
-   Images: (across, along) is the place in the image, from 0 to 1; half is the alpha. Half and the ink are the
-   same at all corners of a triangle. */
+   Images: (across, along) is the place in the image, from 0 to 1; half is the alpha. Half and colour are
+   the same at all corners of a triangle, except the light of fields and images. */
 struct gm_vertex {
     float x, y; /* place in pixels, y downwards */
     float across, along, half;

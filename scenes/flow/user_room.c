@@ -188,8 +188,11 @@ static double observe_local(const struct gm_view *view)
         return stepped ? gm_flow_heat(flow, view->state, number) : NAN;
     case DRAG:
     case LIFT:
+        if (!stepped) {
+            return NAN;
+        }
         gm_flow_force(flow, view->state, number, force);
-        return stepped ? force[subject->what - DRAG] : NAN;
+        return force[subject->what - DRAG];
     default:
         return gm_flow_circulation(flow, view->state, number);
     }

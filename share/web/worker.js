@@ -119,7 +119,8 @@ function draw(handle, width, height, scale, dark) {
         pixels = web.___wrap_malloc(size);
         capacity = pixels ? size : 0; // without memory a smaller picture may succeed
     }
-    if (paper.width !== width || paper.height !== height) { // a size that is set, even to itself, makes a new canvas
+    // setting the size, even to the same value, allocates a new bitmap
+    if (paper.width !== width || paper.height !== height) {
         Object.assign(paper, {width, height});
     }
     call('theme', handle, dark ? 'dark' : 'light');
