@@ -2,6 +2,7 @@
 /* Counts interruptions; long work checks the count. */
 #include "app/base/interrupt.h"
 
+#include <signal.h>
 #include <stddef.h>
 #include <string.h>
 #include <time.h>
@@ -11,7 +12,8 @@
 
 enum { PATIENCE = 2 }; /* seconds */
 
-volatile sig_atomic_t gm_interrupted;
+_Static_assert(ATOMIC_INT_LOCK_FREE == 2, "a signal handler may take no lock");
+atomic_int gm_interrupted;
 static volatile sig_atomic_t ends;
 static struct timespec first_came;
 

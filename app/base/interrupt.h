@@ -2,12 +2,12 @@
 #ifndef GM_APP_BASE_INTERRUPT_H
 #define GM_APP_BASE_INTERRUPT_H
 
-#include <signal.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <sys/resource.h>
 
-/* The number of signals SIGINT and SIGTERM; long work checks it between steps. */
-extern volatile sig_atomic_t gm_interrupted;
+/* The number of signals SIGINT and SIGTERM; long work, in any thread, checks it between steps. */
+extern atomic_int gm_interrupted;
 
 /* Until gm_catch_interrupts a signal ends the process at once with status 130: what a command reads and
    proves before its work can take seconds, and no file is open yet. */

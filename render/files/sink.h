@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_FILES_SINK_H
 #define GM_RENDER_FILES_SINK_H
 
-#include <signal.h>
+#include <stdatomic.h>
 
 #include "render/files/images.h"
 #include "render/message.h"
@@ -22,7 +22,7 @@ struct gm_sink_settings {
     size_t text_count;
     /* number of the user's interrupts, for a movie; NULL: none. After the first an idle ffmpeg is given up,
        after the second any. */
-    const volatile sig_atomic_t *interruptions;
+    const atomic_int *interruptions;
 };
 
 /* Opens PNG files; `pattern` holds one %d-like conversion ("frames/disc-%06ld.png"), or none for a single

@@ -57,7 +57,7 @@ struct movie_sink {
     char *frames, *palette; /* the files between the two passes of a GIF */
     int log_descriptor, input;
     pid_t ffmpeg; /* 0 if it does not run */
-    const volatile sig_atomic_t *interruptions;
+    const atomic_int *interruptions;
     long count; /* frames written */
     bool failed;
 };

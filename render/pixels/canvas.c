@@ -167,8 +167,8 @@ INLINE reals values_of(struct ramp ramp, int x, int y, reals step)
 
 /* ---- runs of pixels of one row ---- */
 
-/* What a polygon paints. It and the target are local copies, so that the compiler knows that stored pixels do
-   not change them. */
+/* The colour, the values and the target of a polygon are local copies, so that the compiler knows that stored
+   pixels do not change them. */
 struct paint {
     struct ramps ramps;
     bool straight;
@@ -319,7 +319,7 @@ INLINE int first_from(double place, int low, int high)
     return whole + (whole < place);
 }
 
-/* One side of a polygon: the edge that crosses a row, on the way down from corner to corner. */
+/* One side of a polygon: the edge that crosses a row, while rows go down from corner to corner. */
 struct side {
     int end, turn; /* the lower corner; the next is `turn` corners on */
     double x, y, slope;
