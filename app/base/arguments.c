@@ -138,7 +138,6 @@ void gm_arguments_put_shell(FILE *stream, const char *word)
     for (const char *at = word + front; *at; at++) {
         fputs(*at == '\'' ? "'\\'" : "", stream);
         putc(*at, stream);
-        fputs(*at == '\'' ? "'" : "", stream);
     }
     putc('\'', stream);
 }

@@ -60,6 +60,9 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                       char *message);
 void gm_options_close(void *options);
 
+/* Returns true if two paths name one file, which need not exist yet. */
+bool gm_command_same_file(const char *a, const char *b);
+
 /* Returns true if a picture goes to standard output; nothing else may then be written there. */
 bool gm_options_take_stdout(const struct gm_options *options);
 

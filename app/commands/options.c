@@ -383,7 +383,7 @@ static bool are_one(const struct stat *a, const struct stat *b)
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
-static bool is_same_file(const char *a, const char *b)
+bool gm_command_same_file(const char *a, const char *b)
 {
     struct stat x, y;
     const char *one, *other;
@@ -417,16 +417,17 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
             continue;
         }
         for (size_t k = i + 1; k < FILES; k++) {
-            if (files[k].path && is_same_file(files[i].path, files[k].path)) {
+            if (files[k].path && gm_command_same_file(files[i].path, files[k].path)) {
                 return gm_refuse(message, "%s and %s are to write to one file, %.300s", files[i].name,
                                  files[k].name, files[i].path);
             }
         }
         bool read = i != CHECKPOINT && options->from_checkpoint &&
-                    is_same_file(files[i].path, options->from_checkpoint);
+                    gm_command_same_file(files[i].path, options->from_checkpoint);
         for (int k = 0; k < options->arguments.count && !read && command != GM_AGAIN; k++) {
             const char *word = options->arguments.words[k], *equals = strchr(word, '=');
-            read = is_same_file(files[i].path, word) || (equals && is_same_file(files[i].path, equals + 1));
+            read = gm_command_same_file(files[i].path, word) ||
+                   (equals && gm_command_same_file(files[i].path, equals + 1));
         }
         if (read) {
             return gm_refuse(message, "%s would overwrite %.300s, which is read", files[i].name,

@@ -257,6 +257,10 @@ int gm_command_web(const struct gm_options *options)
     const char *page = read_page(options), *view = print_view(&lesson),
                *path = options->lesson ? options->lesson : "lesson.html";
     check_files(&lesson);
+    for (int i = 0; i < seen->count; i++) {
+        gm_command_end_if(options, gm_command_same_file(path, seen->words[i]), GM_EXIT_USAGE,
+                          "--output would overwrite %.300s, which is read", seen->words[i]);
+    }
     struct gm_text_stream writing;
     FILE *stream = gm_stream_begin(&writing);
     gm_arena_need(options->arena, stream);

@@ -242,10 +242,10 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s has made no step since its last change.", title);
         return 0;
     }
-    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt long. A step that covers half of
-       the time leads nowhere near. */
-    const double left = step->until - run->t, dt = fabs(run->dt);
-    if (left >= dt * (1 - 1e-9) || left < -4 * dt || left > (step->until - lane->t0) / 2) {
+    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt long. Where dt is long, the lane must
+       still be near the end, since otherwise the time could be chosen at which it is judged. */
+    const double left = step->until - run->t, dt = fabs(run->dt), near = (step->until - lane->t0) / 20;
+    if (left >= dt * (1 - 1e-9) || left < -4 * dt || left > near) {
         gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
                   run->t, step->until);
         return 0;

@@ -471,7 +471,13 @@ async function openHash() {
     at('tour').hidden = at('tour').hidden || !refused;
     return !refused;
 }
-addEventListener('hashchange', () => location.hash.length > 1 ? openHash() : location.reload());
+addEventListener('hashchange', () => {
+    if (location.hash.length <= 1) {
+        location.reload();
+    } else if (view) { // else the page is still opening, and will read it
+        openHash();
+    }
+});
 
 // ---- time ----
 
@@ -662,12 +668,16 @@ function showStep(over) {
 }
 
 at('grade').onclick = async () => {
-    const step = lesson.steps[stepNumber], {passed, verdict, answer, refused} = await ask('grade', {tour: lesson.tour, step: stepNumber + 1});
+    const index = stepNumber, step = lesson.steps[index];
+    const {passed, verdict, answer, refused} = await ask('grade', {tour: lesson.tour, step: index + 1});
+    if (stepNumber !== index) { // another step was chosen meanwhile
+        return;
+    }
     showStep(false);
     at('tour-text').append(make('p', {id: 'verdict', className: passed ? 'ask' : '', textContent: verdict}),
         make('p', null, (passed ? step.answer : step.hint) || ''), refused === verdict ? '' : refused);
     at('hand-in').hidden = !answer;
-    at('hand-in').onclick = () => download(`${lesson.tour.replace(/\.tour$/, '')}-${stepNumber + 1}.answer`, new Blob([answer]));
+    at('hand-in').onclick = () => download(`${lesson.tour.replace(/\.tour$/, '')}-${index + 1}.answer`, new Blob([answer]));
 };
 
 function stopOfTour() {

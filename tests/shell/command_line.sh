@@ -779,6 +779,10 @@ view = json.loads(open("tour.html").read()[3:-5])
 assert view["tour"] == "own.tour" and view["files"]["own.tour"] == open("own.tour").read(), view
 assert all(step["exercise"] and step["hint"] for step in view["steps"]), view["steps"]
 END
+# a lesson is not written over what it is made of
+printf 'title: x\nstep: a\nsay: b\nshow: ./systems/deep/own.system\n' >own.tour
+refused 1 'would overwrite ./own.tour, which is read' web --tour ./own.tour -o own.tour
+refused 1 'own.system, which is read' web --tour ./own.tour -o systems/deep/own.system
 printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
 refused 1 'wrong.system:4:' web wrong.system -o none.html
 refused 1 'sphere' web disc scheme=sphere -o none.html

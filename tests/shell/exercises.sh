@@ -145,6 +145,10 @@ limited() {
 answer 1 100000000 'disc scheme=gauss4 dt=1'
 limited 'an answer of many steps'
 
+# one step half way, whose evaluations are few
+printf 'tour: exercises\nstep: 1\nsteps: 1\nrun: disc scheme=midpoint dt=32\n' >x.answer
+graded 4 'is at t = 32, and the exercise ends at t = 62'
+
 # a condition is read with the tour: a mistake in it has its line and a caret
 head='title: x\nstep: a\nsay: b\nask: c\nanswer: d\nshow: kepler scheme=rk4\nuntil: 1\n'
 wrong() {

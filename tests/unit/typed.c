@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "app/base/arguments.h"
 #include "app/words/request.h"
 #include "app/words/system.h"
 #include "app/words/typed_file.h"
@@ -60,6 +61,27 @@ static void words(void **unused)
 }
 
 /* A sentence that holds `says`, and the place of the bar in the line. */
+/* A shell reads the word that was put. */
+static void quoted(void **unused)
+{
+    (void)unused;
+    static const char *const put[] = {"plain",           "it's", "./my 'x'.system", "about=it's a=b",
+                                      "$HOME `x` \\ \"", "''"};
+    for (size_t i = 0; i < GM_COUNT(put); i++) {
+        char line[200] = "", read[100] = "";
+        FILE *stream = fmemopen(line, sizeof line, "w");
+        fputs("printf %s ", stream);
+        gm_arguments_put_shell(stream, put[i]);
+        assert_int_equal(fclose(stream), 0);
+        FILE *shell = popen(line, "r");
+        assert_non_null(shell);
+        const size_t count = fread(read, 1, sizeof read - 1, shell);
+        assert_int_equal(pclose(shell), 0);
+        assert_int_equal(count, strlen(put[i]));
+        assert_string_equal(read, put[i]);
+    }
+}
+
 static void is_wrong(const char *marked, const char *says)
 {
     char line[512] = "";
@@ -348,10 +370,9 @@ static void typed_systems_stay(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words),         cmocka_unit_test(places),
-        cmocka_unit_test(schemes),       cmocka_unit_test(formulas),
-        cmocka_unit_test(saved),         cmocka_unit_test(lanes),
-        cmocka_unit_test(default_lanes), cmocka_unit_test(typed_systems_stay),
+        cmocka_unit_test(words),   cmocka_unit_test(places),        cmocka_unit_test(quoted),
+        cmocka_unit_test(schemes), cmocka_unit_test(formulas),      cmocka_unit_test(saved),
+        cmocka_unit_test(lanes),   cmocka_unit_test(default_lanes), cmocka_unit_test(typed_systems_stay),
     };
     return cmocka_run_group_tests_name("typed", tests, NULL, NULL);
 }

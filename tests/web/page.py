@@ -495,6 +495,7 @@ def used(process):
 
 
 async def frames(port, process, seconds, scenes):
+    await asyncio.sleep(5)  # the browser's own start is not the page's
     for scene in scenes:
         url, before = lesson(scene + ".html", scene), used(process)[1]
         page = await Page().open(port, url, width=1648, height=866)
