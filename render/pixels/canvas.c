@@ -129,7 +129,7 @@ INLINE struct corner corner_of(const struct gm_vertex *vertex)
 }
 
 /* The area of a parallelogram, above 0 if the way from a to b turns right, as seen, to c. */
-INLINE double area_of(const struct corner *a, const struct corner *b, const struct corner *c)
+INLINE double area_between(const struct corner *a, const struct corner *b, const struct corner *c)
 {
     return (b->x - a->x) * (c->y - a->y) - (c->x - a->x) * (b->y - a->y);
 }
@@ -212,10 +212,10 @@ INLINE pixels cover_of_letters(const struct paint *paint, const struct gm_atlas 
     return covered;
 }
 
-/* Returns part * 255, from 0 to 255. */
-INLINE uint32_t byte_of(float part)
+/* Returns a value rounded, from 0 to 255. */
+INLINE uint32_t byte_of(float value)
 {
-    return part > 0.0f ? (part < 1.0f ? (uint32_t)(255.0f * part + 0.5f) : 255) : 0;
+    return value > 0.0f ? (value < 255.0f ? (uint32_t)(value + 0.5f) : 255) : 0;
 }
 
 INLINE pixels colours_of_field(const struct target *target, const struct paint *paint, int x, int y,
@@ -234,7 +234,7 @@ INLINE pixels colours_of_field(const struct target *target, const struct paint *
                                  : (double)(across[i] + along[i]);
         const int shade = value > 0.0 ? (value < 1.0 ? (int)(value * (SHADES - 1) + 0.5) : SHADES - 1) : 0;
         colour[i] = colours[shade];
-        lit[i] = light[i] > 0.0f ? (light[i] < 255.0f ? (uint32_t)(light[i] + 0.5f) : 255) : 0;
+        lit[i] = byte_of(light[i]);
     }
     const uint32_t black = pixel_of((const uint8_t[4]){0, 0, 0, 255});
     return mixed((pixels){black, black, black, black}, colour, lit);
@@ -290,7 +290,7 @@ INLINE void put_row(const struct target *target, const struct paint *paint, enum
         } else if (target->call->program == GM_PROGRAM_TEXT) {
             covered = cover_of_letters(paint, target->atlas, x, y, step);
         } else {
-            const uint32_t alpha = byte_of(paint->half);
+            const uint32_t alpha = byte_of(255.0f * paint->half);
             covered = (pixels){alpha, alpha, alpha, alpha};
             colour = colours_of_field(target, paint, x, y, step);
         }
@@ -343,7 +343,7 @@ INLINE double crossing(struct side *side, const struct polygon *polygon, int y)
     return side->x + side->slope * (y - side->y);
 }
 
-INLINE void put_polygon_by(const struct target *shared, const struct polygon *given, enum variant variant)
+INLINE void paint_rows(const struct target *shared, const struct polygon *given, enum variant variant)
 {
     const struct target target = *shared;
     const struct polygon polygon = *given;
@@ -373,23 +373,23 @@ INLINE void put_polygon_by(const struct target *shared, const struct polygon *gi
     }
 }
 
-static void put_polygon(const struct target *target, const struct polygon *polygon)
+static void paint_polygon(const struct target *target, const struct polygon *polygon)
 {
     if (!target->plain) {
-        put_polygon_by(target, polygon, ANY);
+        paint_rows(target, polygon, ANY);
     } else if (polygon->straight) {
-        put_polygon_by(target, polygon, STRAIGHT_INK);
+        paint_rows(target, polygon, STRAIGHT_INK);
     } else {
-        put_polygon_by(target, polygon, ROUND_INK);
+        paint_rows(target, polygon, ROUND_INK);
     }
 }
 
 static void put_triangle(const struct target *target, const struct corner *a, const struct corner *b,
                          const struct corner *c)
 {
-    const struct polygon polygon = {.corner = {*a, *b, *c}, .count = 3, .area = area_of(a, b, c)};
+    const struct polygon polygon = {.corner = {*a, *b, *c}, .count = 3, .area = area_between(a, b, c)};
     if (fabs(polygon.area) > 0.0) {
-        put_polygon(target, &polygon);
+        paint_polygon(target, &polygon);
     }
 }
 
@@ -397,13 +397,13 @@ static void put_triangle(const struct target *target, const struct corner *a, co
    edge. */
 static bool put_pair(const struct target *target, const struct corner p[4])
 {
-    const double area = area_of(&p[0], &p[1], &p[2]);
+    const double area = area_between(&p[0], &p[1], &p[2]);
     if (area == 0.0) {
         return false;
     }
     /* barycentric coordinates of the last corner */
-    const double w[3] = {area_of(&p[3], &p[1], &p[2]) / area, area_of(&p[0], &p[3], &p[2]) / area,
-                         area_of(&p[0], &p[1], &p[3]) / area};
+    const double w[3] = {area_between(&p[3], &p[1], &p[2]) / area, area_between(&p[0], &p[3], &p[2]) / area,
+                         area_between(&p[0], &p[1], &p[3]) / area};
     if (!(w[0] < 0.0 && w[1] > 0.0 && w[2] > 0.0)) {
         return false;
     }
@@ -420,7 +420,7 @@ static bool put_pair(const struct target *target, const struct corner p[4])
         .area = area,
         .straight = a->along == 0.0f && b->along == 0.0f && c->along == 0.0f && d->along == 0.0f,
     };
-    put_polygon(target, &polygon);
+    paint_polygon(target, &polygon);
     return true;
 }
 
@@ -609,8 +609,10 @@ static bool rasteriser_open(struct rasteriser *rasteriser, const struct gm_appea
     *rasteriser = (struct rasteriser){.width = look->width, .height = look->height, .theme = look->theme};
     return (look->width >= LANES && look->height >= 1 && look->width <= MOST_SIDE &&
             look->height <= MOST_SIDE) ||
-           gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is %d to %d.",
-                     look->width, look->height, LANES, MOST_SIDE);
+           gm_refuse(
+               message,
+               "A picture of %d x %d pixels cannot be painted; each side is at most %d, and the width at least %d.",
+               look->width, look->height, MOST_SIDE, LANES);
 }
 
 static bool open_all(struct gm_canvas *canvas, const struct gm_appearance *look, char *message)

@@ -60,7 +60,6 @@ static void words(void **unused)
     splits("k=\"it's\" q=1", "k=it's|q=1");
 }
 
-/* A sentence that holds `says`, and the place of the bar in the line. */
 /* A shell reads the word that was put. */
 static void quoted(void **unused)
 {
@@ -82,6 +81,7 @@ static void quoted(void **unused)
     }
 }
 
+/* A sentence that holds `says`, and the place of the bar in the line. */
 static void is_wrong(const char *marked, const char *says)
 {
     char line[512] = "";
