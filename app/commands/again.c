@@ -189,7 +189,7 @@ static int picture_again(const struct gm_options *options, char *const *texts)
         refuse(options, "its size is damaged");
     }
     gm_arena_keep(options->arena, request, gm_request_close);
-    const bool recalled = gm_request_recall(request, texts[ARGUMENTS], message);
+    const bool recalled = gm_request_recall(request, NULL, texts[ARGUMENTS], message);
     gm_command_end_if(options, !recalled && gm_request_refusal(request) == GM_EXIT_USAGE, GM_EXIT_FILE,
                       "%s cannot be redrawn from the words of an earlier version, \"%.300s\"; "
                       "render them without the refused one: %s",

@@ -39,12 +39,33 @@ static void see(const char *path)
     gm_arguments_add(seen, path);
 }
 
+/* The name of a file in the page: with a tour its path from the folder of the tour, where the page begins, else without
+   folders. */
+static const char *name_of(const struct lesson *lesson, const char *path)
+{
+    const char *tour = lesson->tour ? lesson->file->path : NULL, *slash = tour ? strrchr(tour, '/') : NULL;
+    const size_t folder = slash ? (size_t)(slash + 1 - tour) : 0;
+    char *name = gm_arena_print(lesson->options->arena, "%s", ""), *end;
+    path = !tour ? basename(path) : strncmp(path, tour, folder) == 0 ? path + folder : path;
+    for (size_t length; *path; path += length + strspn(path + length, "/")) {
+        length = strcspn(path, "/");
+        if (length == 2 && strncmp(path, "..", 2) == 0) {
+            end = strrchr(name, '/');
+            *(end ? end : name) = '\0';
+        } else if (length > 0 && !(length == 1 && *path == '.')) {
+            name =
+                gm_arena_print(lesson->options->arena, "%s%s%.*s", name, *name ? "/" : "", (int)length, path);
+        }
+    }
+    return name;
+}
+
 /* The name of a file, which is added to the page. */
 static const char *take(const struct lesson *lesson, const struct gm_file *file)
 {
     char message[GM_MESSAGE];
     size_t length;
-    const char *name = basename(file->path);
+    const char *name = name_of(lesson, file->path);
     char *text = gm_file_read(file, LARGEST_FILE, &length, message);
     gm_command_end_if(lesson->options, !text, GM_EXIT_FILE, "%s", message);
     gm_arena_keep(lesson->options->arena, text, free);

@@ -29,7 +29,8 @@ char *gm_answer_write(const struct gm_tour *tour, size_t step, const struct gm_r
     char *arguments = gm_request_format(request);
     FILE *stream = arguments ? gm_stream_begin(&writing) : NULL;
     if (stream) {
-        fprintf(stream, "tour: %s\nstep: %zu\nrun: %s\nsteps:", tour->name, step + 1, arguments);
+        fprintf(stream, "tour: %s%s\nstep: %zu\nrun: %s\nsteps:", tour->name,
+                tour->has_namesake ? gm_file_endings[GM_FILE_TOUR] : "", step + 1, arguments);
         for (size_t i = 0; i < request->count; i++) {
             fprintf(stream, " %" PRId64, lanes[i]->run->steps + (lanes[i]->run->status != GM_OK));
         }
@@ -128,7 +129,8 @@ static void grade(struct gm_arena *arena, void *data)
     gm_arena_refuse_if(arena, step->expectation_count == 0, "step %g of %s is not an exercise", number,
                        tour->name);
     struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
-    gm_arena_check(arena, gm_request_recall(request, grading->entries[RUN], message), message);
+    gm_arena_check(arena, gm_request_recall(request, step->request.scene, grading->entries[RUN], message),
+                   message);
     gm_arena_keep(arena, request, gm_request_close);
     gm_arena_check(arena, gm_exercise_is_about(step, request->scene, message), message);
     gm_arena_refuse_if(arena,

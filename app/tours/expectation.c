@@ -64,9 +64,23 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     if (!known || name->indexed || name->initial) {
         return GM_UNKNOWN;
     }
+    const char *another;
+    for (size_t i = FIXED + GM_CLAIM_COUNT; (another = name_at(i, names)); i++) {
+        if (number < FIXED + GM_CLAIM_COUNT && strcmp(another, known) == 0) {
+            gm_refuse(sentence,
+                      "%s is a name of all exercises and of this scene; give the scene's another name",
+                      known);
+            return GM_REFUSED;
+        }
+    }
     const struct gm_parameter *row = row_of(names->scene, number);
     if (row && row->type != GM_REAL && row->type != GM_INTEGER) {
         gm_refuse(sentence, "%s is a word, not a number", known);
+        return GM_REFUSED;
+    }
+    if (row && row->starts) {
+        gm_refuse(sentence,
+                  "%s is where a lane starts; a line observe: of the system names a value at the end", known);
         return GM_REFUSED;
     }
     while (at < expectation->count && expectation->names[at] != number) {
@@ -98,7 +112,10 @@ bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, c
     expectation->text = text;
     gm_formula_open(&expectation->graph);
     gm_arena_keep(arena, &expectation->graph, gm_formula_close);
-    return gm_formula_read(&expectation->graph, text, 0, strlen(text), &scope, &expectation->node, fault);
+    const bool read =
+        gm_formula_read(&expectation->graph, text, 0, strlen(text), &scope, &expectation->node, fault);
+    return read && (expectation->count > 0 ||
+                    gm_fail(fault, 0, "a condition has the name of a value, as in energy_error < 1e-6"));
 }
 
 /* ---- grading ---- */
@@ -185,21 +202,36 @@ static bool is_free(const struct gm_tour_step *step, const struct gm_parameter *
 {
     return !row || row->looks || strcmp(row->key, "show") == 0 || gm_is_setting(row) ||
            row->offset == offsetof(struct gm_timing, dt) ||
-           row->offset == offsetof(struct gm_timing, until) || is_named(step, row);
+           row->offset == offsetof(struct gm_timing, until) || row->sets_step || is_named(step, row);
 }
 
-/* Returns the first parameter that the lane has otherwise than shown, or changed during the run; or NULL. */
-static const struct gm_parameter *first_changed(const struct gm_tour_step *step,
-                                                const struct gm_request *request, size_t lane)
+/* Returns the first parameter that differs from a lane that is shown, or NULL. */
+static const struct gm_parameter *first_other(const struct gm_tour_step *step, size_t shown_lane,
+                                              const void *parameters)
 {
     const struct gm_scene *scene = step->request.scene;
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
-        const double shown = gm_parameter_get(row, step->request.lanes[0].parameters),
-                     now = gm_parameter_get(row, request->lanes[lane].parameters);
+        const double shown = gm_parameter_get(row, step->request.lanes[shown_lane].parameters),
+                     now = gm_parameter_get(row, parameters);
         if (!is_free(step, row) && now != shown && !(isnan(now) && isnan(shown))) {
             return row;
         }
+    }
+    return NULL;
+}
+
+/* Returns the first parameter that the lane has otherwise than all that are shown, or changed during the run; or NULL. */
+static const struct gm_parameter *first_changed(const struct gm_tour_step *step,
+                                                const struct gm_request *request, size_t lane)
+{
+    const struct gm_scene *scene = step->request.scene;
+    const struct gm_parameter *other = first_other(step, 0, request->lanes[lane].parameters);
+    for (size_t i = 1; i < step->request.count && other; i++) {
+        other = first_other(step, i, request->lanes[lane].parameters) ? other : NULL;
+    }
+    if (other) {
+        return other;
     }
     for (size_t i = 0; i < request->change_count; i++) {
         const struct gm_change *change = &request->changes[i];

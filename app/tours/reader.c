@@ -466,6 +466,7 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
     free(text);
     if (parsed) {
         shorten_name(tour);
+        tour->has_namesake = !file->built_in && gm_built_in_find(GM_FILE_TOUR, tour->name);
     }
     return parsed;
 }

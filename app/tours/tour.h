@@ -55,6 +55,7 @@ struct gm_tour_step {
 struct gm_tour {
     struct gm_arena *arena; /* owns the following */
     char *name;             /* the file's name, without folder and ending */
+    bool has_namesake;      /* a tour of the program has the name of this file */
     char *title;
     char *about; /* one line for the list */
     long place;  /* position in the list */

@@ -42,10 +42,11 @@ static bool are_copies(const struct gm_request *request)
     bool alike = request->count > 1 && are_alike(request, NULL);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
-        alike = alike && (gm_request_idle(request, row->key) || are_alike(request, row));
+        alike = alike && (!gm_request_uses(request, row->key) || are_alike(request, row));
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        alike = alike && are_alike(request, &gm_settings_parameters[i]);
+        const struct gm_parameter *row = &gm_settings_parameters[i];
+        alike = alike && (!gm_request_uses(request, row->key) || are_alike(request, row));
     }
     return alike;
 }
@@ -99,14 +100,16 @@ char *gm_request_format(const struct gm_request *request)
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         const bool always = row->required || has_key(&arguments, row->key);
-        if (!gm_request_idle(request, row->key)) {
+        if (gm_request_uses(request, row->key)) {
             lists += format_key(stream, request, row, always ? NULL : row->standard, false);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        lists +=
-            format_key(stream, request, row, has_key(&arguments, row->key) ? NULL : row->standard, false);
+        const bool always = has_key(&arguments, row->key);
+        if (gm_request_uses(request, row->key)) {
+            lists += format_key(stream, request, row, always ? NULL : row->standard, false);
+        }
     }
     if (lists > 1) {
         fputs(" zip=yes", stream);

@@ -205,6 +205,22 @@ static bool takes(const struct gm_scene *scene, const struct gm_scheme *scheme, 
                                           : !row || gm_scheme_takes(scheme, row);
 }
 
+/* True if the scheme of a lane has a use for a key, at the start or after a change. */
+static bool is_taken(const struct gm_request *request, const char *key)
+{
+    bool taken = false, unreadable;
+    char message[GM_MESSAGE];
+    for (size_t k = 0; k < request->count && !taken; k++) {
+        taken = takes(request->scene, request->lanes[k].scheme, key);
+    }
+    for (size_t i = 0; i < request->change_count && !taken; i++) {
+        const char *name = gm_word_after(request->changes[i].text, "scheme");
+        const struct gm_scheme *scheme = name ? gm_scheme_named(name, &unreadable, message) : NULL;
+        taken = scheme && takes(request->scene, scheme, key);
+    }
+    return taken;
+}
+
 /* Checks that a key is given only to schemes of which one has a use for it. */
 static void check_settings(struct gm_arena *arena, const struct gm_request *request,
                            const struct gm_words *words)
@@ -212,11 +228,7 @@ static void check_settings(struct gm_arena *arena, const struct gm_request *requ
     const struct gm_scene *scene = request->scene;
     for (size_t i = 0; i < words->count; i++) {
         const char *key = words->list[i].key;
-        bool used = false;
-        for (size_t k = 0; k < request->count && !used; k++) {
-            used = takes(scene, request->lanes[k].scheme, key);
-        }
-        if (used) {
+        if (is_taken(request, key)) {
             continue;
         }
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
@@ -239,6 +251,11 @@ const char *gm_request_idle(const struct gm_request *request, const char *key)
         why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
     }
     return why;
+}
+
+bool gm_request_uses(const struct gm_request *request, const char *key)
+{
+    return !gm_request_idle(request, key) && is_taken(request, key);
 }
 
 /* Refuses a key without effect in any lane: the user expects one. */
@@ -460,7 +477,9 @@ static void make_lanes(struct gm_arena *arena, void *data)
         equal_cost(arena, request, k, first_scheme(words, k));
         settle_time(arena, request->scene, &request->lanes[k], false);
     }
-    check_settings(arena, request, words);
+    if (!making->recalled) { /* after a change a scheme may take it */
+        check_settings(arena, request, words);
+    }
     request->arguments = gm_words_join(request->scene, words);
     gm_arena_need(arena, request->arguments);
 }
@@ -576,13 +595,23 @@ bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *sce
     return parse(request, scene, &given, schemes, false, message);
 }
 
-bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
+/* True if the file that defines the scene has the name of this one, in whatever folder. */
+static bool have_one_file(const struct gm_scene *scene, const char *word)
+{
+    return scene && scene->words && !scene->words[1] &&
+           strcmp(basename(scene->words[0]), basename(word)) == 0;
+}
+
+bool gm_request_recall(struct gm_request *request, const struct gm_scene *beside, const char *arguments,
+                       char *message)
 {
     struct gm_arguments words = {0};
     *request = (struct gm_request){0};
-    const bool recalled = gm_arguments_split(&words, arguments)
-                              ? parse(request, NULL, &words, 1, true, message)
-                              : gm_refuse(message, "not enough memory");
+    const bool split = gm_arguments_split(&words, arguments);
+    const struct gm_scene *scene =
+        split && words.count > 0 && have_one_file(beside, words.words[0]) ? beside : NULL;
+    const bool recalled =
+        split ? parse(request, scene, &words, 1, true, message) : gm_refuse(message, "not enough memory");
     gm_arguments_close(&words);
     return recalled;
 }

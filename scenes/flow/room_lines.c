@@ -61,9 +61,10 @@ static const struct gm_parameter known[] = {
                    "tracers come in at inlets and sources, and do not fill the room at the start"),
     GM_CHOICE_ROW(struct gm_flows, show, "show", "scalar", shows, "what the picture shows", .live = true),
     GM_BOOLEAN_ROW(struct gm_flows, streamlines, "streamlines", "yes",
-                   "streamlines, as level lines of the stream function", .live = true),
-    GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),
-    GM_BOOLEAN_ROW(struct gm_flows, grid, "grid", "no", "the edges of the mesh", .live = true),
+                   "streamlines, as level lines of the stream function", .live = true, .looks = true),
+    GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true,
+                   .looks = true),
+    GM_BOOLEAN_ROW(struct gm_flows, grid, "grid", "no", "the edges of the mesh", .live = true, .looks = true),
 };
 
 static const struct gm_parameter *find_row(const char *key)

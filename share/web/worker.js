@@ -203,6 +203,7 @@ const orders = {
             web.FS.writeFile(`/fonts/${name}`, await unpack(font));
         }
         for (const [name, content] of Object.entries(files)) {
+            web.FS.mkdirTree(`/${name}`.replace(/\/[^/]*$/, ''));
             web.FS.writeFile(`/${name}`, content);
         }
         const scenes = [];

@@ -810,12 +810,15 @@ python3 - <<'END' || fail 'the schemes of a page'
 import json
 view, tour = (json.loads(open(name).read()[3:-5]) for name in ["page.html", "tour.html"])
 assert view["words"] == ["disc", "scheme=rk4,own.scheme,composition(verlet; 1/2, 1/2)"], view["words"]
-assert tour["steps"][0]["changes"][0]["text"] == "scheme=own.scheme", tour["steps"]
-assert view["files"]["own.scheme"] == tour["files"]["own.scheme"] == open("own.scheme").read()
+assert tour["steps"][0]["changes"][0]["text"] == "scheme=deep/own.scheme", tour["steps"]
+assert view["files"]["own.scheme"] == tour["files"]["deep/own.scheme"] == open("own.scheme").read()
 END
-mkdir other && sed 's/H: /H: 2*/' systems/deep/own.system >other/own.system
-printf 'title: T\nabout: A\nstep: A\nsay: A.\nshow: systems/deep/own.system\nuntil: 1\nstep: B\nsay: B.\nshow: other/own.system\nuntil: 1\n' >two.tour
-refused 1 'two different files are called own.system' web --tour ./two.tour -o none.html
+mkdir -p other/deep && sed 's/H: /H: 2*/' systems/deep/own.system >other/deep/own.system
+printf 'title: T\nabout: A\nstep: A\nsay: A.\nshow: deep/own.system\nuntil: 1\nstep: B\nsay: B.\nshow: ../systems/deep/own.system\nuntil: 1\n' >other/two.tour
+status 0 web --tour ./other/two.tour -o page.html
+cp -r systems/deep .
+sed -i 's/systems.deep/deep/' other/two.tour
+refused 1 'two different files are called deep/own.system' web --tour ./other/two.tour -o none.html
 [ ! -e none.html ] || fail 'a page was written that is refused'
 
 [ $failures = 0 ] && echo 'all as it should be'

@@ -163,8 +163,15 @@ wrong 'a condition compares two values' 'expect: energy_error'
 wrong 'equality' 'expect: steps = 5'
 wrong 'hint: is for an exercise' 'hint: none'
 wrong 'show is a word, not a number' 'expect: show > 1'
+wrong 'has the name of a value' 'expect: 0/0 < 1'
 printf 'title: x\nstep: a\nsay: b\nshow: kepler\nexpect: t > 0\n' >wrong.tour
 refused 3 'needs show: and ask:' tour ./wrong.tour --list
+printf "$head"'expect: q2 < 0.5\n' | sed 's/kepler scheme=rk4/henon-heiles/' >wrong.tour
+refused 3 'q2 is where a lane starts' tour ./wrong.tour --list
+mkdir folder
+printf 'coordinates: q\nparameter: order = 2\nH: p_q^2/2 + order*q^2/2\nstart: q = 1, p_q = 0\n' >folder/own.system
+printf "$head"'expect: order > 1\n' | sed 's/kepler/.\/folder\/own.system/' >wrong.tour
+refused 3 'order is a name of all exercises and of this scene' tour ./wrong.tour --list
 
 # an answer is graded with the tour that is named, so a teacher's own text decides
 sed 's/evaluations < 65/evaluations < 60/' "$tours/exercises.tour" >stricter.tour
@@ -174,11 +181,37 @@ answer 1 62 'disc scheme=verlet dt=1'
 
 # what was not measured, and what is not a number, meets no condition, nor does its opposite
 printf 'coordinates: q\nH: p_q^2/2 + q^2/2 - q^4/9\npart: A = p_q^2/2 + q^2/2\npart: B = -q^4/9\nstart: q = 1, p_q = 0\n' >parts.system
-for condition in 'certified > 0' 'order > 1' 'symplectic < 1' 'not 0/0 < 1' 'not sqrt(-1 - t) > 0'; do
+for condition in 'certified > 0' 'order > 1' 'symplectic < 1' 'not 0/(t - t) < 1' 'not sqrt(-1 - t) > 0'; do
     printf "$head"'expect: %s\n' "$condition" | sed 's/kepler/.\/parts.system/' >own.tour
     printf 'tour: own\nstep: 1\nsteps: 10\nrun: ./parts.system scheme=strang(A,B) dt=0.1\n' >x.answer
     "$geomint" grade x.answer ./own.tour >out 2>err
     [ $? = 4 ] || fail "$condition: $(cat out err)"
 done
+
+# a lane is one of those that are shown, whichever
+printf "$head"'expect: steps > 3\n' | sed 's/rk4/rk4 eccentricity=0.2,0.6 dt=0.1/' >lists.tour
+for eccentricity in 0.2 0.6 0.4; do
+    printf 'tour: lists\nstep: 1\nsteps: 10\nrun: kepler scheme=rk4 dt=0.1 eccentricity=%s\n' $eccentricity >x.answer
+    "$geomint" grade x.answer ./lists.tour >out
+    [ $? = "$([ $eccentricity = 0.4 ] && echo 4 || echo 0)" ] || fail "eccentricity $eccentricity of a list: $(cat out)"
+done
+
+# an answer about a system of the tour is graded in any folder, with the tour's own file
+printf "$head"'expect: steps > 3\n' | sed 's/kepler scheme=rk4/own.system scheme=rk4 dt=0.1/' >folder/own.tour
+"$geomint" tour ./folder/own.tour --keys '3s S' --screen 80x24 --shot screen.txt || fail 'a system of a folder'
+sed 's/^steps: .*/steps: 10/' own-0001.answer >x.answer
+"$geomint" grade x.answer ./folder/own.tour >out 2>err || fail "a system of a folder: $(cat out err)"
+sed 's/run: [^ ]*/run: own.system/' x.answer >folder/x.answer
+"$geomint" grade folder/x.answer ./folder/own.tour >out 2>err || fail "in another folder: $(cat out err)"
+
+# a tour with the name of one of the program's is not taken for it
+cp folder/own.tour folder/exercises.tour
+(cd folder && "$geomint" tour ./exercises.tour --keys '3s S' --screen 80x24 --shot screen.txt) || fail 'a namesake'
+grep -qx 'tour: exercises.tour' folder/exercises-0001.answer || fail "a namesake: $(cat folder/*.answer)"
+refused 3 'exercises.tour could not be read' grade folder/exercises-0001.answer
+
+# a tolerance is for the scheme that follows
+printf 'tour: exercises\nstep: 3\nsteps: 629\nrun: kepler eccentricity=0.9 tolerance=1e-4 scheme=logh-kahan-li8 dt=0.1\n' >x.answer
+graded 0 '^Passed with '
 [ "$failures" = 0 ] && echo "exercises: all passed"
 exit $((failures > 0))

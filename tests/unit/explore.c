@@ -413,6 +413,18 @@ static void exercises_are_graded(void **unused)
            "the exercise is about disc, and the answer about vortices");
     assert_null(geomint_answer(lab, "exercises", 1));
     geomint_close(lab);
+
+    /* a setting is told where a scheme takes it, also one that comes later */
+    lab = geomint_explore(WORDS("kepler", "scheme=dopri5", "eccentricity=0.9", "tolerance=1e-4"));
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));
+    good(geomint_switch(lab, 0, "verlet"), lab);
+    good(geomint_restart(lab), lab);
+    assert_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));
+    assert_null(strstr(geomint_commands(lab), "tolerance="));
+    good(geomint_forward(lab), lab);
+    good(geomint_switch(lab, 0, "dopri5"), lab);
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));
+    geomint_close(lab);
 }
 
 int main(void)

@@ -427,6 +427,23 @@ async def other_views(port):
     await page.act("order('switch', 1, 'rk2').then(() => play(true))")
     await page.until("!playing && view.t > 3")
     check("a lesson that was before its start has its stop and changes", await page.value("view.t <= 4 && view.lanes[1].scheme === 'verlet'"))
+    # files of a tour keep their folders, so that the tour finds them when it grades
+    tour = "title: x\n"
+    for number, path in enumerate(["lessons/sub/own.system", "systems/own.system"]):
+        os.makedirs(os.path.dirname(f"{folder}/{path}"))
+        with open(f"{folder}/{path}", "w", encoding="utf-8") as file:
+            file.write(f"coordinates: q\nH: p_q^2/2 + {number + 1}*q^2/2\nstart: q = 1, p_q = 0\n")
+        tour += (f"step: a\nsay: b\nask: c\nanswer: d\nshow: {os.path.relpath(path, 'lessons')} scheme=verlet dt=0.125\n"
+                 "until: 1\nexpect: steps > 7\n")
+    with open(folder + "/lessons/exercises.tour", "w", encoding="utf-8") as file:
+        file.write(tour)
+    page = await Page().open(port, lesson("folders.html", "--tour", folder + "/lessons/exercises.tour"))
+    for step in 0, 1:
+        await page.value(f"goTo({step})")
+        await page.value("ask('ahead', 1)")
+        await page.click("grade")
+        verdict = await page.value("at('verdict').textContent")
+        check(f"files of folders: {verdict}", verdict == "Passed with Verlet: steps = 8.")
     await page.act("explain('rk4')")
     check("a certificate", await page.value("at('certificate').innerText.includes('symplectic') && "
                                             "at('sheet-text').innerText.includes('order 4')"))

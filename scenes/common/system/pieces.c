@@ -112,6 +112,7 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
         system_scene->rows[GM_SYSTEM_ROWS + i] = gm_written_choice(
             arena, system, i, "", offsetof(struct gm_system_lane, values) + i * sizeof(double));
     }
+    const struct gm_system_item *tie = gm_system_item_of(system, GM_WORD_TIE, 0);
     size_t row = GM_SYSTEM_ROWS + choices;
     for (size_t i = 0; i < parameters + starts; i++) {
         const bool is_start = i >= parameters;
@@ -127,6 +128,8 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
         system_scene->rows[row] =
             gm_written_row(arena, variable, start[number], is_start ? "where it starts" : "a parameter",
                            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
+        system_scene->rows[row].starts = is_start;
+        system_scene->rows[row].sets_step = tie && tie->variable == number;
         system_scene->rows[row++].required = typed;
     }
     system_scene->row_count = row;
