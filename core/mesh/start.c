@@ -38,7 +38,7 @@ static bool bench_open(struct bench *bench, const struct gm_mesh *mesh)
     return true;
 }
 
-static void even(const struct gm_mesh *mesh, double *x)
+static void place_evenly(const struct gm_mesh *mesh, double *x)
 {
     for (size_t k = 0; k <= mesh->points + 1; k++) {
         x[k] = mesh->first + mesh->length * (double)k / (double)(mesh->points + 1);
@@ -65,7 +65,7 @@ void gm_mesh_places(const struct gm_mesh *mesh, const double *label, size_t coun
 void gm_mesh_known(const struct gm_mesh *mesh, enum gm_mesh_kind kind, double t, struct gm_elements *stage)
 {
     if (kind == GM_MESH_UNIFORM || kind == GM_MESH_GIVEN) {
-        even(mesh, stage->x);
+        place_evenly(mesh, stage->x);
         memset(stage->v, 0, (mesh->points + 2) * sizeof *stage->v);
     }
     if (kind == GM_MESH_GIVEN && mesh->map) {
@@ -78,7 +78,7 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh
 {
     double *x = bench->stage.x, *good = bench->change + mesh->points;
     const size_t size = (mesh->points + 2) * sizeof *x;
-    even(mesh, x);
+    place_evenly(mesh, x);
     memcpy(good, x, size);
     double reached = 0, step = 1. / CONTINUATION;
     while (reached < 1 && step > 1. / SHORTEST) {

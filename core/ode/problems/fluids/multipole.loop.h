@@ -102,7 +102,7 @@ static void exchange(struct tree *tree, size_t i, size_t j)
 
 /* Moves the vortices of first .. end - 1 whose coordinate is below the bound to the front; returns where the
    others begin. */
-static size_t part(struct tree *tree, const double *coordinate, double bound, size_t first, size_t end)
+static size_t partition(struct tree *tree, const double *coordinate, double bound, size_t first, size_t end)
 {
     while (first < end) {
         if (coordinate[first] < bound) {
@@ -159,9 +159,9 @@ static bool divide(struct tree *tree, size_t index)
         cell = &tree->cells[index];
     }
     size_t bounds[5] = {first, 0, 0, 0, end};
-    bounds[2] = part(tree, x, cell->x, first, end);
-    bounds[1] = part(tree, y, cell->y, first, bounds[2]);
-    bounds[3] = part(tree, y, cell->y, bounds[2], end);
+    bounds[2] = partition(tree, x, cell->x, first, end);
+    bounds[1] = partition(tree, y, cell->y, first, bounds[2]);
+    bounds[3] = partition(tree, y, cell->y, bounds[2], end);
     cell->child = tree->count;
     for (int i = 0; i < 4; i++) {
         if (bounds[i + 1] > bounds[i]) {
