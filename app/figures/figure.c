@@ -14,6 +14,7 @@
 #include "app/words/words.h"
 #include "core/memory.h"
 #include "render/clock.h"
+#include "render/pixels/canvas.h"
 
 enum { FEW_SCHEMES = 3 };
 
@@ -443,6 +444,7 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
         }
         gm_request_close(&request);
     }
+    gm_canvas_settle();
     /* another process prints the message; a lack of memory may also have caused other failures: a lane
        that could not be opened, arguments that were not read */
     if (gm_memory_was_short() && outcome->status != GM_EXIT_INTERRUPTED) {
