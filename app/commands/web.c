@@ -246,6 +246,9 @@ int gm_command_web(const struct gm_options *options)
         .options = options, .words = &options->arguments, .files = gm_arguments_in(options->arena)};
     struct gm_tour *tour = gm_arena_take(options->arena, 1, sizeof *tour);
     const struct gm_scene *scene = NULL;
+    const char *path = options->lesson ? options->lesson : "lesson.html", *dot = strrchr(basename(path), '.');
+    gm_command_end_if(options, dot && strcmp(dot, ".html") != 0 && strcmp(dot, ".htm") != 0, GM_EXIT_USAGE,
+                      "a page is HTML: its name ends in .html, not in %.40s", dot);
     gm_command_end_if(options, options->tour && lesson.words->count > 0, GM_EXIT_USAGE,
                       "web takes a scene or --tour, which has scenes of its own");
     struct gm_file file;
@@ -275,8 +278,7 @@ int gm_command_web(const struct gm_options *options)
                    : lesson.tour       ? tour->title
                    : scene             ? scene->title
                                        : "geomint";
-    const char *page = read_page(options), *view = print_view(&lesson),
-               *path = options->lesson ? options->lesson : "lesson.html";
+    const char *page = read_page(options), *view = print_view(&lesson);
     check_files(&lesson);
     for (int i = 0; i < seen->count; i++) {
         gm_command_end_if(options, gm_command_same_file(path, seen->words[i]), GM_EXIT_USAGE,

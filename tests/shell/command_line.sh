@@ -781,8 +781,9 @@ assert all(step["exercise"] and step["hint"] for step in view["steps"]), view["s
 END
 # a lesson is not written over what it is made of
 printf 'title: x\nstep: a\nsay: b\nshow: ./systems/deep/own.system\n' >own.tour
-refused 1 'would overwrite ./own.tour, which is read' web --tour ./own.tour -o own.tour
-refused 1 'own.system, which is read' web --tour ./own.tour -o systems/deep/own.system
+cp own.tour own.html
+refused 1 'would overwrite ./own.html, which is read' web --tour ./own.html -o own.html
+refused 1 'a page is HTML: its name ends in .html, not in .system' web --tour ./own.tour -o systems/deep/own.system
 printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
 refused 1 'wrong.system:4:' web wrong.system -o none.html
 refused 1 'sphere' web disc scheme=sphere -o none.html
