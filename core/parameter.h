@@ -33,7 +33,7 @@ struct gm_parameter {
     bool live;              /* a change acts on the current state; otherwise the run starts again */
     bool looks;             /* no step depends on it: it is constant in a run */
     bool starts;            /* where a coordinate starts: its value in a run is another */
-    bool sets_step;         /* dt follows from it, or it from dt */
+    bool sets_step;         /* dt follows from it, or it from dt, and nothing else does */
     /* The choices of a GM_CHOICE, or the usual words of a GM_TEXT, NULL-terminated; NULL: none. */
     const char *const *choices;
     /* Returns true if a GM_TEXT may have this text, else false with a sentence (GM_MESSAGE bytes); `admitting` is

@@ -202,6 +202,9 @@ void gm_append(char *text, size_t size, const char *format, ...)
     const size_t used = strlen(text);
     va_list values;
     va_start(values, format);
-    vsnprintf(text + used, size - used, format, values);
+    const int length = vsnprintf(text + used, size - used, format, values);
     va_end(values);
+    if (length >= (int)(size - used)) {
+        gm_message_mark_cut(text, size);
+    }
 }

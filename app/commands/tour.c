@@ -137,7 +137,7 @@ int gm_command_tour(const struct gm_options *options)
 int gm_command_grade(const struct gm_options *options)
 {
     enum { MOST_BYTES = 1 << 16, MOST_SECONDS = 60 };
-    char message[GM_MESSAGE];
+    char message[GM_MESSAGE], exercise[GM_MESSAGE];
     char *const *words = options->arguments.words;
     struct gm_file file = {0};
     size_t size = 0;
@@ -153,14 +153,14 @@ int gm_command_grade(const struct gm_options *options)
     gm_interrupts_limit(MOST_SECONDS,
                         "geomint: the answer needs more than a minute of CPU time, so it has no "
                         "verdict; take fewer steps or a scheme that needs less\n");
-    const int status = gm_answer_grade(text, size, words[1], message);
+    const int status = gm_answer_grade(text, size, words[1], exercise, message);
     if (gm_interrupted) {
         return GM_EXIT_INTERRUPTED;
     }
     if (status != GM_EXIT_OK && status != GM_EXIT_CLAIM) {
         return gm_give_up(status, "%.200s: %s", words[0], message);
     }
-    puts(message);
+    printf("%s\n%s\n", exercise, message);
     return status;
 }
 

@@ -27,6 +27,7 @@ struct lesson {
     const char *title;
     const struct gm_tour *tour;
     const struct gm_file *file;       /* of the tour */
+    const char *text;                 /* of this file; NULL: the program has it inside */
     const struct gm_arguments *words; /* of the view */
     struct gm_arguments *files;       /* path, name and text of each */
 };
@@ -60,33 +61,52 @@ static const char *name_of(const struct lesson *lesson, const char *path)
     return name;
 }
 
-/* The name of a file, which is added to the page. */
-static const char *take(const struct lesson *lesson, const struct gm_file *file)
+static const char *read_text(const struct gm_options *options, const struct gm_file *file)
 {
     char message[GM_MESSAGE];
     size_t length;
-    const char *name = name_of(lesson, file->path);
     char *text = gm_file_read(file, LARGEST_FILE, &length, message);
-    gm_command_end_if(lesson->options, !text, GM_EXIT_FILE, "%s", message);
-    gm_arena_keep(lesson->options->arena, text, free);
+    gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
+    return gm_arena_keep(options->arena, text, free);
+}
+
+/* Adds a file to the page by this name there, which it returns. */
+static const char *take(const struct lesson *lesson, const struct gm_file *file, const char *name)
+{
+    const char *text = read_text(lesson->options, file);
     for (int i = 0; i < lesson->files->count; i += 3) {
         if (strcmp(lesson->files->words[i + 1], name) == 0) {
             gm_command_end_if(lesson->options, strcmp(lesson->files->words[i + 2], text) != 0, GM_EXIT_USAGE,
                               "two different files are called %.200s; rename one of them", name);
-            return gm_arena_print(lesson->options->arena, "%s", name);
+            return name;
         }
     }
     gm_arguments_add(lesson->files, file->path);
     gm_arguments_add(lesson->files, name);
     gm_arguments_add(lesson->files, text);
-    return gm_arena_print(lesson->options->arena, "%s", name);
+    return name;
 }
 
-/* The word without the folders of its file, which is added to the page. */
+/* The word as the page has it: with the name that its file has there, which is added to the page. */
 static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
 {
+    static const char home[] =
+        "home/web_user/.config/geomint"; /* there a name without a path is looked up in a page */
+    struct gm_arena *arena = lesson->options->arena;
     struct gm_file file;
-    return gm_file_find(kind, word, &file) && !file.built_in ? take(lesson, &file) : word;
+    if (!gm_file_find(kind, word, &file) || file.built_in) {
+        return word;
+    }
+    if (lesson->tour &&
+        !gm_word_ends(word, gm_file_endings[kind])) { /* the tour's own text names it in this way */
+        take(lesson, &file, gm_arena_print(arena, "%s/%s", home, basename(file.path)));
+        return word;
+    }
+    gm_command_end_if(lesson->options, lesson->text && file.path[0] == '/' && strstr(lesson->text, file.path),
+                      GM_EXIT_USAGE,
+                      "a page has no folder of %.200s: a tour names its files by paths from its own folder",
+                      file.path);
+    return take(lesson, &file, name_of(lesson, file.path));
 }
 
 /* The word with the names of its schemes' files, which are added to the page. */
@@ -120,7 +140,9 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
 
 static void put_tour(const struct lesson *lesson, struct gm_row *view)
 {
-    gm_row_put(view, "tour %s", lesson->file->built_in ? lesson->tour->name : take(lesson, lesson->file));
+    gm_row_put(view, "tour %s",
+               lesson->file->built_in ? lesson->tour->name
+                                      : take(lesson, lesson->file, name_of(lesson, lesson->file->path)));
     struct gm_row steps = gm_row_open(view, "steps", ']');
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];
@@ -191,6 +213,7 @@ static const char *read_page(const struct gm_options *options)
     gm_kernel_folder(kernel, sizeof kernel);
     const char *path =
         given && *given ? given : gm_arena_print(options->arena, "%s/../web/page.html", kernel);
+    see(path);
     char *page = gm_regular_read(path, LARGEST_PAGE, &size, reason);
     gm_command_end_if(options, !page, GM_EXIT_FILE,
                       "%.200s could not be read: %s; ./geomint setup web builds the part for the browser",
@@ -230,7 +253,8 @@ static void try_lanes(const struct gm_options *options, const struct gm_request 
 static void check_files(const struct lesson *lesson)
 {
     for (int i = 0, k; i < seen->count; i++) {
-        for (k = 0; k < lesson->files->count && strcmp(lesson->files->words[k], seen->words[i]) != 0;) {
+        for (k = 0;
+             k < lesson->files->count && !gm_command_same_file(lesson->files->words[k], seen->words[i]);) {
             k += 3;
         }
         gm_command_end_if(lesson->options, k == lesson->files->count, GM_EXIT_USAGE,
@@ -263,6 +287,7 @@ int gm_command_web(const struct gm_options *options)
         read_tour(options, &file, tour);
         lesson.tour = tour;
         lesson.file = &file;
+        lesson.text = file.built_in ? NULL : read_text(options, &file);
     } else if (lesson.words->count > 0) {
         request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
         scene = request->scene;
@@ -278,8 +303,9 @@ int gm_command_web(const struct gm_options *options)
                    : lesson.tour       ? tour->title
                    : scene             ? scene->title
                                        : "geomint";
-    const char *page = read_page(options), *view = print_view(&lesson);
+    const char *view = print_view(&lesson);
     check_files(&lesson);
+    const char *page = read_page(options);
     for (int i = 0; i < seen->count; i++) {
         gm_command_end_if(options, gm_command_same_file(path, seen->words[i]), GM_EXIT_USAGE,
                           "--output would overwrite %.300s, which is read", seen->words[i]);

@@ -613,6 +613,24 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
     return true;
 }
 
+/* Logs the settings of a scheme that follows, which the lane was opened with though its first scheme has no use for them. */
+static bool log_settings(struct gm_session *session, size_t lane, const struct gm_scheme *scheme,
+                         char *message)
+{
+    const struct gm_lane *own = session->lanes[lane];
+    bool made = true;
+    for (size_t i = 0; i < gm_settings_parameter_count && made; i++) {
+        const struct gm_parameter *row = &gm_settings_parameters[i];
+        char text[GM_TEXT_SIZE], change[GM_MESSAGE];
+        snprintf(change, sizeof change, "%s=%s", row->key,
+                 gm_parameter_format(row, &own->settings, text, sizeof text));
+        made = !gm_scheme_takes(scheme, row) || gm_scheme_takes(own->scheme, row) ||
+               gm_scheme_takes(session->log.lanes[lane].scheme, row) || strcmp(text, row->standard) == 0 ||
+               make_change(session, lane, change, message);
+    }
+    return made;
+}
+
 bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_scheme *scheme, char *message)
 {
     char *change = NULL;
@@ -620,7 +638,8 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
         return gm_refuse(message, short_of_memory);
     }
     settle(session);
-    const bool made = make_change(session, lane, change, message);
+    const bool made =
+        log_settings(session, lane, scheme, message) && make_change(session, lane, change, message);
     free(change);
     if (!made) {
         return false;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/base/arguments.h"
 #include "app/base/files.h"
@@ -30,7 +31,7 @@ char *gm_answer_write(const struct gm_tour *tour, size_t step, const struct gm_r
     FILE *stream = arguments ? gm_stream_begin(&writing) : NULL;
     if (stream) {
         fprintf(stream, "tour: %s%s\nstep: %zu\nrun: %s\nsteps:", tour->name,
-                tour->has_namesake ? gm_file_endings[GM_FILE_TOUR] : "", step + 1, arguments);
+                tour->path ? gm_file_endings[GM_FILE_TOUR] : "", step + 1, arguments);
         for (size_t i = 0; i < request->count; i++) {
             fprintf(stream, " %" PRId64, lanes[i]->run->steps + (lanes[i]->run->status != GM_OK));
         }
@@ -49,7 +50,7 @@ struct grading {
     size_t size;
     char *entries[ANSWER_WORDS];
     int status;
-    char *sentence;
+    char *exercise, *sentence;
 };
 
 /* Reads the lines; several changes are joined by newlines. */
@@ -75,17 +76,28 @@ static void read_answer(struct gm_arena *arena, struct grading *grading)
     }
 }
 
+/* The tour that is named, or that of the answer: NAME.tour is a file of this folder, or one that is found by its name, but none
+   that the program has inside. */
 static struct gm_tour *find_tour(struct gm_arena *arena, struct grading *grading)
 {
     char message[GM_MESSAGE];
     struct gm_file file;
     bool unreadable = false;
     struct gm_tour *tour = gm_arena_take(arena, 1, sizeof *tour);
-    const char *word = grading->word ? grading->word : grading->entries[TOUR];
-    const bool found = gm_tour_find(word, &file, &unreadable, message);
+    const char *word = grading->word ? grading->word : grading->entries[TOUR],
+               *ending = gm_file_endings[GM_FILE_TOUR];
+    const bool by_name =
+        !grading->word && gm_word_ends(word, ending) && access(word, F_OK) != 0 &&
+        gm_file_find(GM_FILE_TOUR, gm_arena_print(arena, "%.*s", (int)(strlen(word) - strlen(ending)), word),
+                     &file) &&
+        !file.built_in;
+    const bool found = by_name || gm_tour_find(word, &file, &unreadable, message);
     if (!found || !gm_tour_read(tour, &file, message)) {
         grading->status = found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
-        gm_arena_refuse(arena, "%s", message);
+        gm_arena_refuse(arena, "%s%s", message,
+                        !grading->word && gm_word_ends(word, ending)
+                            ? "; the tour may be named: geomint grade FILE.answer FILE.tour"
+                            : "");
     }
     return gm_arena_keep(arena, tour, gm_tour_close);
 }
@@ -128,6 +140,7 @@ static void grade(struct gm_arena *arena, void *data)
     const struct gm_tour_step *step = &tour->steps[(size_t)number - 1];
     gm_arena_refuse_if(arena, step->expectation_count == 0, "step %g of %s is not an exercise", number,
                        tour->name);
+    gm_refuse(grading->exercise, "%.100s, step %g: %.300s", tour->name, number, step->title);
     struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
     gm_arena_check(arena, gm_request_recall(request, step->request.scene, grading->entries[RUN], message),
                    message);
@@ -141,10 +154,14 @@ static void grade(struct gm_arena *arena, void *data)
         gm_exercise_passed(step, request, lanes, grading->sentence) ? GM_EXIT_OK : GM_EXIT_CLAIM;
 }
 
-int gm_answer_grade(const char *text, size_t size, const char *tour, char *sentence)
+int gm_answer_grade(const char *text, size_t size, const char *tour, char *exercise, char *sentence)
 {
-    struct grading grading = {
-        .text = text, .size = size, .word = tour, .status = GM_EXIT_USAGE, .sentence = sentence};
+    struct grading grading = {.text = text,
+                              .size = size,
+                              .word = tour,
+                              .status = GM_EXIT_USAGE,
+                              .exercise = exercise,
+                              .sentence = sentence};
     struct gm_arena *arena = gm_arena_open();
     if (!gm_arena_run(arena, grade, &grading)) {
         gm_refuse(sentence, "%s", gm_arena_reason(arena));

@@ -51,17 +51,37 @@ static const char *name_at(size_t i, const void *data)
     return observable ? observable->key : NULL;
 }
 
+/* The number of a name, or that behind the last one. */
+static size_t number_of(const struct names *names, const char *word)
+{
+    size_t number = 0;
+    for (const char *known; (known = name_at(number, names)) && strcmp(known, word) != 0;) {
+        number++;
+    }
+    return number;
+}
+
 static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct names *names = data;
     struct gm_expectation *expectation = names->expectation;
-    size_t number = 0, at = 0;
-    const char *known;
-    while ((known = name_at(number, names)) &&
-           !gm_text_same(known, strlen(known), name->text, name->length)) {
-        number++;
+    char word[96], index[32] = "";
+    if (name->initial) {
+        gm_refuse(sentence, "a condition compares values at the end: there is none at the start");
+        return GM_REFUSED;
     }
-    if (!known || name->indexed || name->initial) {
+    if (name->indexed) {
+        snprintf(index, sizeof index, "[%ld]", name->index);
+    }
+    snprintf(word, sizeof word, "%.*s%s", (int)name->length, name->text,
+             index); /* an observable may be called q[1] */
+    size_t number = number_of(names, word), at = 0;
+    const char *known = name_at(number, names);
+    if (!known && name->indexed) {
+        gm_refuse(sentence, "there is no value %s; geomint list names those of the scene", word);
+        return GM_REFUSED;
+    }
+    if (!known) {
         return GM_UNKNOWN;
     }
     const char *another;
@@ -79,8 +99,10 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
         return GM_REFUSED;
     }
     if (row && row->starts) {
-        gm_refuse(sentence,
-                  "%s is where a lane starts; a line observe: of the system names a value at the end", known);
+        gm_refuse(
+            sentence,
+            "%s is where a lane starts, and no value at the end; geomint list names the scene's observables",
+            known);
         return GM_REFUSED;
     }
     while (at < expectation->count && expectation->names[at] != number) {
@@ -124,7 +146,8 @@ bool gm_exercise_is_about(const struct gm_tour_step *step, const struct gm_scene
 {
     const struct gm_scene *shown = step->request.scene;
     return scene == shown || (scene->text && shown->text && strcmp(scene->text, shown->text) == 0) ||
-           gm_refuse(message, "the exercise is about %s, and the answer about %s", shown->name, scene->name);
+           gm_refuse(message, "the exercise is about %s, and the answer about %s%s", shown->name,
+                     strcmp(shown->name, scene->name) == 0 ? "another " : "", scene->name);
 }
 
 /* Returns the least value that measurement gives for the schemes of a lane. */
@@ -150,8 +173,11 @@ static double value_of(const struct gm_lane *lane, size_t name)
 {
     const struct gm_run *run = lane->run;
     const struct gm_parameter *row = row_of(lane->scene, name);
+    if (row && gm_is_setting(row)) {
+        return gm_scheme_takes(lane->scheme, row) ? gm_parameter_get(row, &lane->settings) : NAN;
+    }
     if (row) {
-        return gm_parameter_get(row, gm_is_setting(row) ? (const void *)&lane->settings : lane->parameters);
+        return gm_parameter_get(row, lane->parameters);
     }
     return name >= FIXED + GM_CLAIM_COUNT ? gm_lane_observe(lane, observable_of(lane->scene, name))
            : name == TIME                 ? run->t
@@ -205,30 +231,37 @@ static bool is_free(const struct gm_tour_step *step, const struct gm_parameter *
            row->offset == offsetof(struct gm_timing, until) || row->sets_step || is_named(step, row);
 }
 
-/* Returns the first parameter that differs from a lane that is shown, or NULL. */
-static const struct gm_parameter *first_other(const struct gm_tour_step *step, size_t shown_lane,
-                                              const void *parameters)
+/* The number of parameters that differ from a lane that is shown, and the first of them. */
+static size_t count_others(const struct gm_tour_step *step, size_t shown_lane, const void *parameters,
+                           const struct gm_parameter **first)
 {
     const struct gm_scene *scene = step->request.scene;
+    size_t count = 0;
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
         const double shown = gm_parameter_get(row, step->request.lanes[shown_lane].parameters),
                      now = gm_parameter_get(row, parameters);
         if (!is_free(step, row) && now != shown && !(isnan(now) && isnan(shown))) {
-            return row;
+            *first = count == 0 ? row : *first;
+            count++;
         }
     }
-    return NULL;
+    return count;
 }
 
-/* Returns the first parameter that the lane has otherwise than all that are shown, or changed during the run; or NULL. */
+/* Returns the first parameter that the lane has otherwise than that lane of `show:` which is most like it, or that was changed
+   during the run; or NULL. */
 static const struct gm_parameter *first_changed(const struct gm_tour_step *step,
                                                 const struct gm_request *request, size_t lane)
 {
     const struct gm_scene *scene = step->request.scene;
-    const struct gm_parameter *other = first_other(step, 0, request->lanes[lane].parameters);
-    for (size_t i = 1; i < step->request.count && other; i++) {
-        other = first_other(step, i, request->lanes[lane].parameters) ? other : NULL;
+    size_t fewest = SIZE_MAX;
+    const struct gm_parameter *other = NULL;
+    for (size_t i = 0; i < step->request.count; i++) {
+        const struct gm_parameter *first;
+        const size_t count = count_others(step, i, request->lanes[lane].parameters, &first);
+        other = count >= fewest ? other : count > 0 ? first : NULL;
+        fewest = count < fewest ? count : fewest;
     }
     if (other) {
         return other;
@@ -274,10 +307,11 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s has made no step since its last change.", title);
         return 0;
     }
-    /* The next step would lead beyond the end; steps of adaptive schemes are a few dt long. Where dt is long, the lane must
-       still be near the end, since otherwise the time could be chosen at which it is judged. */
+    /* The next step would lead beyond the end, or the last one of a scheme whose steps have several lengths did so. Where dt is
+       long, the lane must still be near the end, since otherwise the time could be chosen at which it is judged. */
     const double left = step->until - run->t, dt = fabs(run->dt), near = (step->until - lane->t0) / 20;
-    if (left >= dt * (1 - 1e-9) || left < -4 * dt || left > near) {
+    const bool beyond = run->scheme->family->adaptive ? run->t_behind >= step->until : left < -1e-9 * dt;
+    if (beyond || left >= dt * (1 - 1e-9) || fabs(left) > near) {
         gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
                   run->t, step->until);
         return 0;
@@ -290,11 +324,10 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
     for (size_t i = 0; i < step->expectation_count; i++) {
         const struct gm_expectation *expectation = &step->expectations[i];
         if (!meets(expectation, lane, values)) {
-            gm_refuse(sentence, "Not passed: %.100s misses %.150s: %.200s.", title, expectation->text,
-                      values);
+            gm_refuse(sentence, "Not passed: %.100s misses %s: %s.", title, expectation->text, values);
             return i;
         }
-        gm_append(sentence, GM_MESSAGE, "%.150s%s", values, i + 1 < step->expectation_count ? ", " : ".");
+        gm_append(sentence, GM_MESSAGE, "%s%s", values, i + 1 < step->expectation_count ? ", " : ".");
     }
     return step->expectation_count + 1;
 }

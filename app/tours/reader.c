@@ -59,6 +59,7 @@ struct entry {
 
 struct reader {
     const char *name; /* the file's name in sentences */
+    bool is_file;     /* a file has this path */
     const char *text;
     size_t size;
     struct gm_arena *arena;
@@ -422,15 +423,18 @@ static void read_tour(struct gm_arena *arena, void *data)
 {
     struct reader *reader = data;
     reader->tour->name = gm_arena_print(arena, "%s", reader->name);
+    reader->tour->path = reader->is_file ? gm_arena_print(arena, "%s", reader->name) : NULL;
     read_lines(reader);
     place_files(reader);
     read_entries(reader);
 }
 
-bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message)
+static bool parse(struct gm_tour *tour, const char *name, bool is_file, const char *text, size_t size,
+                  char *message)
 {
     *tour = (struct gm_tour){.arena = gm_arena_open()};
     struct reader reader = {.name = name,
+                            .is_file = is_file,
                             .text = text,
                             .size = size,
                             .arena = tour->arena,
@@ -442,6 +446,11 @@ bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, siz
     gm_refuse(message, "%s", gm_arena_reason(tour->arena));
     gm_tour_close(tour);
     return false;
+}
+
+bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message)
+{
+    return parse(tour, name, false, text, size, message);
 }
 
 /* "share/tours/area.tour" is called area. */
@@ -462,11 +471,10 @@ bool gm_tour_read(struct gm_tour *tour, const struct gm_file *file, char *messag
     *tour = (struct gm_tour){0};
     size_t size = 0;
     char *text = gm_file_read(file, MOST_BYTES, &size, message);
-    const bool parsed = text && gm_tour_parse(tour, file->path, text, size, message);
+    const bool parsed = text && parse(tour, file->path, !file->built_in, text, size, message);
     free(text);
     if (parsed) {
         shorten_name(tour);
-        tour->has_namesake = !file->built_in && gm_built_in_find(GM_FILE_TOUR, tour->name);
     }
     return parsed;
 }

@@ -55,7 +55,7 @@ struct gm_tour_step {
 struct gm_tour {
     struct gm_arena *arena; /* owns the following */
     char *name;             /* the file's name, without folder and ending */
-    bool has_namesake;      /* a tour of the program has the name of this file */
+    char *path;             /* of its file; NULL: the program has it inside, or it was read from memory */
     char *title;
     char *about; /* one line for the list */
     long place;  /* position in the list */
@@ -97,9 +97,9 @@ enum { GM_MOST_ANSWER = 2048 };
 char *gm_answer_write(const struct gm_tour *tour, size_t step, const struct gm_request *request,
                       const struct gm_lane *const *lanes);
 /* Repeats an answer and grades it, with the tour that a word means (NULL: the answer's own). Returns the exit status:
-   GM_EXIT_OK if it is passed, GM_EXIT_CLAIM if not, another one if it cannot be repeated; always with a sentence
-   (GM_MESSAGE bytes). */
-int gm_answer_grade(const char *text, size_t size, const char *tour, char *sentence);
+   GM_EXIT_OK if it is passed, GM_EXIT_CLAIM if not, with the tour and the step in `exercise` (GM_MESSAGE bytes); another one
+   if it cannot be repeated; always with a sentence (GM_MESSAGE bytes). */
+int gm_answer_grade(const char *text, size_t size, const char *tour, char *exercise, char *sentence);
 
 /* ---- the places of tours ---- */
 

@@ -187,14 +187,16 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
     return true;
 }
 
-/* The meaning of a change: a scheme's name, a step size, or (neither) a live parameter, which is stored. */
+/* The meaning of a change: a scheme's name, a step size, or (neither) a live parameter or a setting, which is stored. A scheme
+   keeps its settings: a change is for one that follows. `scheme`: the present one, NULL if it is not known. */
 struct meaning {
     const struct gm_scheme *scheme;
     double dt;
 };
 
-static bool understand(const struct gm_scene *scene, void *parameters, const char *text,
-                       struct meaning *meaning, char *message)
+static bool understand(const struct gm_scene *scene, void *parameters, struct gm_settings *settings,
+                       const struct gm_scheme *scheme, const char *text, struct meaning *meaning,
+                       char *message)
 {
     const char *equals = strchr(text, '=');
     if (!equals) {
@@ -216,11 +218,13 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
         }
         return true;
     }
-    const struct gm_parameter *row = gm_scene_parameter(scene, key);
-    if (!row || !row->live) {
+    const struct gm_parameter *row = gm_scene_parameter(scene, key),
+                              *setting = row ? NULL : gm_setting_find(key);
+    if (setting ? scheme && gm_scheme_takes(scheme, setting) : !row || !row->live) {
         return gm_refuse(message, "%.60s cannot be changed during the run", text);
     }
-    return gm_value_read(row, parameters, value, message);
+    return setting ? gm_value_read(setting, settings, value, message)
+                   : gm_value_read(row, parameters, value, message);
 }
 
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message)
@@ -236,7 +240,9 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
     }
     struct meaning meaning;
     const double usual = ((const struct gm_timing *)parameters)->dt;
-    const bool understood = understand(request->scene, parameters, change->text, &meaning, message);
+    struct gm_settings settings = spec->settings;
+    const bool understood =
+        understand(request->scene, parameters, &settings, NULL, change->text, &meaning, message);
     free(parameters);
     if (!understood || isnan(meaning.dt) || fabs(meaning.dt) == fabs(usual)) { /* the sign may change */
         return understood;
@@ -249,7 +255,7 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
 bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
 {
     struct meaning meaning;
-    if (!understand(lane->scene, lane->parameters, text, &meaning, message)) {
+    if (!understand(lane->scene, lane->parameters, &lane->settings, lane->scheme, text, &meaning, message)) {
         return false;
     }
     if (meaning.scheme) {

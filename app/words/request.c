@@ -205,18 +205,12 @@ static bool takes(const struct gm_scene *scene, const struct gm_scheme *scheme, 
                                           : !row || gm_scheme_takes(scheme, row);
 }
 
-/* True if the scheme of a lane has a use for a key, at the start or after a change. */
+/* True if the scheme of a lane has a use for a key. */
 static bool is_taken(const struct gm_request *request, const char *key)
 {
-    bool taken = false, unreadable;
-    char message[GM_MESSAGE];
+    bool taken = false;
     for (size_t k = 0; k < request->count && !taken; k++) {
         taken = takes(request->scene, request->lanes[k].scheme, key);
-    }
-    for (size_t i = 0; i < request->change_count && !taken; i++) {
-        const char *name = gm_word_after(request->changes[i].text, "scheme");
-        const struct gm_scheme *scheme = name ? gm_scheme_named(name, &unreadable, message) : NULL;
-        taken = scheme && takes(request->scene, scheme, key);
     }
     return taken;
 }
@@ -477,9 +471,7 @@ static void make_lanes(struct gm_arena *arena, void *data)
         equal_cost(arena, request, k, first_scheme(words, k));
         settle_time(arena, request->scene, &request->lanes[k], false);
     }
-    if (!making->recalled) { /* after a change a scheme may take it */
-        check_settings(arena, request, words);
-    }
+    check_settings(arena, request, words);
     request->arguments = gm_words_join(request->scene, words);
     gm_arena_need(arena, request->arguments);
 }
@@ -602,14 +594,14 @@ static bool have_one_file(const struct gm_scene *scene, const char *word)
            strcmp(basename(scene->words[0]), basename(word)) == 0;
 }
 
-bool gm_request_recall(struct gm_request *request, const struct gm_scene *beside, const char *arguments,
+bool gm_request_recall(struct gm_request *request, const struct gm_scene *shown, const char *arguments,
                        char *message)
 {
     struct gm_arguments words = {0};
     *request = (struct gm_request){0};
     const bool split = gm_arguments_split(&words, arguments);
     const struct gm_scene *scene =
-        split && words.count > 0 && have_one_file(beside, words.words[0]) ? beside : NULL;
+        split && words.count > 0 && have_one_file(shown, words.words[0]) ? shown : NULL;
     const bool recalled =
         split ? parse(request, scene, &words, 1, true, message) : gm_refuse(message, "not enough memory");
     gm_arguments_close(&words);

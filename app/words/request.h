@@ -70,9 +70,9 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
 /* The same for a scene that is known, and named by the first word; NULL: it is found. */
 bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
                           char *const words[], size_t schemes, char *message);
-/* The same for the stored arguments of an earlier request, in which a key may have no effect any more. A file of `beside`,
-   which may be NULL, stands for one of its name in any folder. */
-bool gm_request_recall(struct gm_request *request, const struct gm_scene *beside, const char *arguments,
+/* The same for the stored arguments of an earlier request, in which a key may have no effect any more. If they name a file
+   called like that of the scene `shown`, in whatever folder, it is this scene; NULL: there is none. */
+bool gm_request_recall(struct gm_request *request, const struct gm_scene *shown, const char *arguments,
                        char *message);
 void gm_request_close(void *request);
 
@@ -83,7 +83,7 @@ bool gm_request_ends_together(const struct gm_request *request, char *message);
 /* The reason why a key has no effect in any lane, or NULL. */
 const char *gm_request_idle(const struct gm_request *request, const char *key);
 
-/* True if a key has an effect in a lane, at the start or after a change. */
+/* True if a key has an effect in a lane at the start. */
 bool gm_request_uses(const struct gm_request *request, const char *key);
 
 /* The exit status for a request that gm_request_parse refused. */

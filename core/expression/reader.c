@@ -515,7 +515,8 @@ static gm_node_id read_comparison(struct reader *reader)
     const char sign = peek(reader);
     const size_t place = reader->at;
     if (sign == '=' || sign == '!') {
-        fail(reader, place, "equality of computed numbers is not a condition; use an event");
+        fail(reader, place, "equality of computed numbers is not a condition; %s",
+             reader->scope.is_condition ? "compare by < or >" : "use an event");
     }
     fail_if(reader, sign != '<' && sign != '>', place,
             "a condition compares two values, as in x > 0: <, <=, > or >= was expected");

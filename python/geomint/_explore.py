@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import threading
 from typing import Any
 
@@ -149,13 +150,13 @@ class Exploration(Pictured):
     def grade(self, tour: str, step: int) -> tuple[bool, str]:
         """Whether the lanes pass an exercise of a tour, by its name or path, steps counted from 1; and the verdict."""
         with self._turn:
-            status = check(self._handle, self._call(library.geomint_grade, characters(tour), _number(step)))
+            status = check(self._handle, self._call(library.geomint_grade, characters(tour), _step(step)))
             return status == OK, text_of(library.geomint_message(self._handle))
 
     def answer(self, tour: str, step: int) -> str:
         """The text of the answer, which `geomint grade FILE.answer` repeats."""
         with self._turn:
-            text = text_of(self._call(library.geomint_answer, characters(tour), _number(step)))
+            text = text_of(self._call(library.geomint_answer, characters(tour), _step(step)))
             check(self._handle)
         return text
 
@@ -193,10 +194,22 @@ class Exploration(Pictured):
             print(error)
 
 
+def _counted(value, what, first):
+    try:
+        number = operator.index(value)
+    except TypeError as error:
+        raise UsageError(f"{value!r} is not the number of a {what}") from error
+    if number < first:
+        raise UsageError(f"there is no {what} {number}; {what}s are counted from {first} on")
+    return number
+
+
 def _number(lane):
-    if lane < 0:
-        raise UsageError(f"there is no lane {lane}; lanes are counted from 0 on")
-    return int(lane)
+    return _counted(lane, "lane", 0)
+
+
+def _step(step):
+    return _counted(step, "step", 1)
 
 
 def explore(scene, *typed: str, **parameters: Any) -> Exploration:

@@ -123,9 +123,11 @@ def text_of(characters):
 
 
 def characters(text):
-    """A text for C, which ends at a zero byte; bytes of a path that are not UTF-8 stay unchanged."""
+    """A text or a path for C, which ends at a zero byte; bytes of a path that are not UTF-8 stay unchanged."""
     try:
-        coded = text.encode("utf-8", "surrogateescape")
+        coded = os.fspath(text).encode("utf-8", "surrogateescape")
+    except (AttributeError, TypeError) as error:
+        raise UsageError(f"{text!r} is not a text") from error
     except UnicodeEncodeError as error:
         raise UsageError(f"{text!r} cannot be encoded in UTF-8") from error
     if b"\0" in coded:

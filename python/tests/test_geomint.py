@@ -549,8 +549,10 @@ def test_exercise(tmp_path):
     if "GEOMINT_PROGRAM" in os.environ:  # the program has the same verdict
         (tmp_path / "x.answer").write_text(answer)
         done = subprocess.run([os.environ["GEOMINT_PROGRAM"], "grade", tmp_path / "x.answer"], capture_output=True, text=True)
-        assert (done.returncode, done.stdout.strip()) == (0, lab.grade("exercises", 1)[1])
-    for tour, step, sentence in (("exercizes", 1, "exercises"), ("exercises", 9, "is a step"), ("area", 1, "is a step")):
+        assert (done.returncode, done.stdout.split("\n", 1)[1].strip()) == (0, lab.grade("exercises", 1)[1])
+    for tour, step, sentence in (("exercizes", 1, "exercises"), ("exercises", 9, "is a step"), ("area", 1, "is a step"),
+                                 ("exercises", -1, "no step -1"), ("exercises", 1.5, "1.5 is not the number of a step"),
+                                 (None, 1, "None is not a text")):
         with pytest.raises(geomint.UsageError, match=sentence):
             lab.grade(tour, step)
         with pytest.raises(geomint.UsageError, match=sentence):

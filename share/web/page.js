@@ -667,18 +667,29 @@ function showStep(over) {
     at('earlier').disabled = stepNumber === 0;
 }
 
-at('grade').onclick = async () => {
+// Shows the verdict on the lanes as they are now, and returns the answer, null if there is none.
+async function grade() {
     const index = stepNumber, step = lesson.steps[index];
     const {passed, verdict, answer, refused} = await ask('grade', {tour: lesson.tour, step: index + 1});
     if (stepNumber !== index) { // another step was chosen meanwhile
-        return;
+        return null;
     }
     showStep(false);
     at('tour-text').append(make('p', {id: 'verdict', className: passed ? 'ask' : '', textContent: verdict}),
-        make('p', null, (passed ? step.answer : step.hint) || ''), refused === verdict ? '' : refused);
+        make('p', null, passed ? step.answer : answer && step.hint || ''), refused === verdict ? '' : refused);
     at('hand-in').hidden = !answer;
-    at('hand-in').onclick = () => download(`${lesson.tour.replace(/\.tour$/, '')}-${index + 1}.answer`, new Blob([answer]));
-};
+    at('grade').scrollIntoView({block: 'nearest'});
+    return answer;
+}
+
+async function handIn() {
+    const name = `${lesson.tour.replace(/\.tour$/, '')}-${stepNumber + 1}.answer`, answer = await grade();
+    if (answer) {
+        download(name, new Blob([answer]));
+    }
+}
+at('grade').onclick = grade;
+at('hand-in').onclick = handIn;
 
 function stopOfTour() {
     playing = false;
@@ -743,14 +754,7 @@ const keys = {
     'N': ['in a lesson: the step before', inTour(() => goTo(stepNumber - 1))],
     'a': ['in a lesson: this step again', inTour(() => goTo(stepNumber))],
     'H': ['in an exercise: a hint', inTour(() => say(lesson.steps[stepNumber].hint || 'This step has no hint.'))],
-    'S': ['in an exercise: save your answer', inTour(async () => {
-        if (!at('grade').hidden) {
-            await at('grade').onclick();
-            if (!at('hand-in').hidden) {
-                at('hand-in').click();
-            }
-        }
-    })],
+    'S': ['in an exercise: save your answer', inTour(() => at('grade').hidden || handIn())],
     '?': ['this page', () => at('help').click()],
 };
 for (let i = 0; i < most; i++) {

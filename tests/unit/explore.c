@@ -390,12 +390,16 @@ static void exercises_are_graded(void **unused)
     good(geomint_advance(lab, 62), lab);
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM,
            "Not passed: RK4 misses area_error < 1e-10");
+    good(geomint_forward(lab), lab);
+    expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "is at t = 63");
+    good(geomint_back(lab), lab);
+    good(geomint_back(lab), lab);
     good(geomint_switch(lab, 0, "verlet"), lab);
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM,
            "Verlet, after RK4 has made no step since");
     good(geomint_forward(lab), lab);
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "Verlet, after RK4 misses");
-    assert_non_null(strstr(geomint_answer(lab, "exercises", 1), "change: 0 62 scheme=verlet\n"));
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 1), "change: 0 61 scheme=verlet\n"));
     good(geomint_restart(lab), lab);
     expect(geomint_grade(lab, "exercises", 1), lab, GEOMINT_CLAIM, "is at t = 0");
     good(geomint_advance(lab, 62), lab);
@@ -414,7 +418,7 @@ static void exercises_are_graded(void **unused)
     assert_null(geomint_answer(lab, "exercises", 1));
     geomint_close(lab);
 
-    /* a setting is told where a scheme takes it, also one that comes later */
+    /* a setting is told with the scheme that takes it, also a later one */
     lab = geomint_explore(WORDS("kepler", "scheme=dopri5", "eccentricity=0.9", "tolerance=1e-4"));
     assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));
     good(geomint_switch(lab, 0, "verlet"), lab);
@@ -423,7 +427,11 @@ static void exercises_are_graded(void **unused)
     assert_null(strstr(geomint_commands(lab), "tolerance="));
     good(geomint_forward(lab), lab);
     good(geomint_switch(lab, 0, "dopri5"), lab);
-    assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 3),
+                           "change: 0 1 tolerance=0.0001\nchange: 0 1 scheme=dopri5\n"));
+    assert_non_null(strstr(geomint_commands(lab), "0:1:tolerance=0.0001,0:1:scheme=dopri5"));
+    good(geomint_switch(lab, 0, "verlet"), lab);
+    assert_null(strstr(geomint_commands(lab), "geomint kepler scheme=verlet tolerance"));
     geomint_close(lab);
 }
 

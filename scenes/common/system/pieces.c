@@ -94,6 +94,25 @@ struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *syste
 
 /* ---- keys ---- */
 
+/* Returns true if a parameter determines the step, by the line `tie`, and no other formula has it. */
+static bool sets_step(struct gm_system_scene *system_scene, size_t number)
+{
+    const struct gm_user_system *system = &system_scene->system;
+    const struct gm_system_item *tie = gm_system_item_of(system, GM_WORD_TIE, 0);
+    if (!tie || tie->variable != number) {
+        return false;
+    }
+    bool *marked = gm_arena_take(system_scene->arena, system->variable_count, sizeof *marked);
+    marked[number] = true;
+    const bool *dependent = gm_arena_keep(
+        system_scene->arena, gm_formula_dependent(&system->graph, marked, system->variable_count), free);
+    size_t count = 0;
+    for (gm_node_id node = 0; node < system->graph.count; node++) {
+        count += dependent[node];
+    }
+    return count <= 1; /* the parameter itself */
+}
+
 void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
                          const struct gm_parameter *common, size_t count, bool typed)
 {
@@ -112,7 +131,6 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
         system_scene->rows[GM_SYSTEM_ROWS + i] = gm_written_choice(
             arena, system, i, "", offsetof(struct gm_system_lane, values) + i * sizeof(double));
     }
-    const struct gm_system_item *tie = gm_system_item_of(system, GM_WORD_TIE, 0);
     size_t row = GM_SYSTEM_ROWS + choices;
     for (size_t i = 0; i < parameters + starts; i++) {
         const bool is_start = i >= parameters;
@@ -129,7 +147,7 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
             gm_written_row(arena, variable, start[number], is_start ? "where it starts" : "a parameter",
                            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
         system_scene->rows[row].starts = is_start;
-        system_scene->rows[row].sets_step = tie && tie->variable == number;
+        system_scene->rows[row].sets_step = !is_start && sets_step(system_scene, number);
         system_scene->rows[row++].required = typed;
     }
     system_scene->row_count = row;
