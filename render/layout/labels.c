@@ -78,6 +78,13 @@ static bool is_closed(const char *text)
     return open <= 0;
 }
 
+/* Returns true if a front ends within "a;  b: c": at "a;" or at "a;  b". */
+static bool is_between(const char *front, char next)
+{
+    const size_t length = strlen(front);
+    return (length > 0 && front[length - 1] == ';') || (next == ':' && strstr(front, "; "));
+}
+
 /* Returns the longest front of a text that fits and is complete: a sentence, a name before its formula, or a
    part before a comma or a bracket that is at least `least` wide. NULL without one. */
 static const char *whole_front(const struct gm_label_list *list, enum gm_text_size size, const char *text,
@@ -95,7 +102,7 @@ static const char *whole_front(const struct gm_label_list *list, enum gm_text_si
             const char *front =
                 gm_picture_text(list->picture, "%.*s", (int)((size_t)(at - text) + breaks[i].kept), text);
             const double wide = gm_labels_width(list, size, front);
-            if (*front != '\0' && is_closed(front) && wide <= width &&
+            if (*front != '\0' && !is_between(front, *at) && is_closed(front) && wide <= width &&
                 (breaks[i].short_too || wide >= least) && (!longest || strlen(front) > strlen(longest))) {
                 longest = front;
             }

@@ -820,6 +820,22 @@ status 0 web --tour ./other/two.tour -o page.html
 cp -r systems/deep .
 sed -i 's/systems.deep/deep/' other/two.tour
 refused 1 'two different files are called deep/own.system' web --tour ./other/two.tour -o none.html
+# one file may be named in several ways; a path of this machine leads nowhere in a page; a system of the user's folder is one there
+printf 'title: T\nstep: A\nsay: A.\nshow: own.system\nuntil: 1\nstep: B\nsay: B.\nshow: ./../deep/own.system\nuntil: 1\n' >deep/ways.tour
+status 0 web --tour ./deep/ways.tour -o page.html
+printf 'title: T\nstep: A\nsay: A.\nshow: %s/own.system\nuntil: 1\n' "$PWD/deep" >deep/absolute.tour
+refused 1 'a tour names its files by paths from its own folder' web --tour "$PWD/deep/absolute.tour" -o none.html
+printf 'title: T\nstep: A\nsay: A.\nshow: folders-own\nuntil: 1\n' >deep/folder.tour
+mkdir of_user && cp deep/own.system of_user/folders-own.system
+GEOMINT_SYSTEMS=$PWD/of_user status 0 web --tour ./deep/folder.tour -o folder.html
+python3 - <<'END' || fail 'a system of the folder'
+import json
+view = json.loads(open("folder.html").read()[3:-5])
+assert view["steps"][0]["show"][0] == "folders-own", view["steps"]
+assert sorted(view["files"]) == ["folder.tour", "home/web_user/.config/geomint/folders-own.system"], list(view["files"])
+END
+cp "$GEOMINT_WEB" template.html
+GEOMINT_WEB=./template.html refused 1 'would overwrite ./template.html, which is read' web disc -o template.html
 [ ! -e none.html ] || fail 'a page was written that is refused'
 
 [ $failures = 0 ] && echo 'all as it should be'

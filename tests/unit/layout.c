@@ -429,6 +429,10 @@ static void numbers_are_whole(void **state)
     const char *const whole = "energy error  |H − H₀| / max(|H₀|, 1/2)";
     const double width = letters_width(metrics.self, GM_TEXT_LABEL, "energy error  |H − H₀| / max(|H₀|, 1");
     assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, whole, width), "energy error");
+    /* nor the name of what is explained after it */
+    const char *const levels = "shapes every step;  grey: the circle of radius 1";
+    const double narrow = letters_width(metrics.self, GM_TEXT_LABEL, "shapes every step;  grey: the circle");
+    assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, levels, narrow), "shapes every step");
     gm_picture_close(picture);
 }
 

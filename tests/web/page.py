@@ -388,6 +388,16 @@ async def other_views(port):
     await page.value("document.dispatchEvent(new KeyboardEvent('keydown', {key: 'S'}))")
     await arrives(folder + "/exercises-1.answer")
     check("an answer is saved", os.path.exists(folder + "/exercises-1.answer"))
+    await page.value("ask('order', ['forward'])")
+    os.remove(folder + "/exercises-1.answer")
+    await page.click("hand-in")
+    await arrives(folder + "/exercises-1.answer")
+    with open(folder + "/exercises-1.answer", encoding="utf-8") as file:
+        saved = file.read()
+    check("an answer is what there is when it is saved", "steps: 63\n" in saved and "is at t = 63" in
+          await page.value("at('verdict').textContent"), saved)
+    await page.act("order('back')")
+    await page.click("grade")
     check("an exercise that is passed", (await page.value("at('verdict').textContent")).startswith("Passed"),
           await page.value("at('tour-text').textContent"))
     # the other exercises, with the verdict of the native program: a near miss, and a right answer
@@ -429,16 +439,18 @@ async def other_views(port):
     check("a lesson that was before its start has its stop and changes", await page.value("view.t <= 4 && view.lanes[1].scheme === 'verlet'"))
     # files of a tour keep their folders, so that the tour finds them when it grades
     tour = "title: x\n"
-    for number, path in enumerate(["lessons/sub/own.system", "systems/own.system"]):
+    environment["GEOMINT_SYSTEMS"] = folder + "/named"
+    for number, path in enumerate(["lessons/sub/own.system", "systems/own.system", "named/by-name.system"]):
         os.makedirs(os.path.dirname(f"{folder}/{path}"))
         with open(f"{folder}/{path}", "w", encoding="utf-8") as file:
             file.write(f"coordinates: q\nH: p_q^2/2 + {number + 1}*q^2/2\nstart: q = 1, p_q = 0\n")
-        tour += (f"step: a\nsay: b\nask: c\nanswer: d\nshow: {os.path.relpath(path, 'lessons')} scheme=verlet dt=0.125\n"
+        shown = "by-name" if number == 2 else os.path.relpath(path, "lessons")
+        tour += (f"step: a\nsay: b\nask: c\nanswer: d\nshow: {shown} scheme=verlet dt=0.125\n"
                  "until: 1\nexpect: steps > 7\n")
     with open(folder + "/lessons/exercises.tour", "w", encoding="utf-8") as file:
         file.write(tour)
     page = await Page().open(port, lesson("folders.html", "--tour", folder + "/lessons/exercises.tour"))
-    for step in 0, 1:
+    for step in range(3):
         await page.value(f"goTo({step})")
         await page.value("ask('ahead', 1)")
         await page.click("grade")
