@@ -67,7 +67,7 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     struct gm_expectation *expectation = names->expectation;
     char word[96], index[32] = "";
     if (name->initial) {
-        gm_refuse(sentence, "a condition compares values at the end: there is none at the start");
+        gm_refuse(sentence, "a condition compares values at the end alone");
         return GM_REFUSED;
     }
     if (name->indexed) {

@@ -188,7 +188,7 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
 }
 
 /* The meaning of a change: a scheme's name, a step size, or (neither) a live parameter or a setting, which is stored. A scheme
-   keeps its settings: a change is for one that follows. `scheme`: the present one, NULL if it is not known. */
+   keeps its settings: a change is for one that follows. `scheme` is NULL if it is not known. */
 struct meaning {
     const struct gm_scheme *scheme;
     double dt;

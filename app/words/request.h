@@ -70,8 +70,8 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
 /* The same for a scene that is known, and named by the first word; NULL: it is found. */
 bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
                           char *const words[], size_t schemes, char *message);
-/* The same for the stored arguments of an earlier request, in which a key may have no effect any more. If they name a file
-   called like that of the scene `shown`, in whatever folder, it is this scene; NULL: there is none. */
+/* The same for the stored arguments of an earlier request, in which a key may have no effect any more. A file with the name of
+   that of the scene `shown` means this scene, whatever its folder; `shown` may be NULL. */
 bool gm_request_recall(struct gm_request *request, const struct gm_scene *shown, const char *arguments,
                        char *message);
 void gm_request_close(void *request);

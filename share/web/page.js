@@ -608,7 +608,12 @@ at('record').onclick = () => {
     recorder = new MediaRecorder(canvas.captureStream(30), {videoBitsPerSecond: 8e6});
     recorder.ondataavailable = event => pieces.push(event.data);
     recorder.onstop = () => {
-        download(`${view.scene}.webm`, new Blob(pieces, {type: 'video/webm'}));
+        const movie = new Blob(pieces, {type: 'video/webm'});
+        if (movie.size > 0) {
+            download(`${view.scene}.webm`, movie);
+        } else {
+            say('The movie has no picture yet: record for longer.', true);
+        }
         recorder = null;
         at('record').setAttribute('aria-pressed', false);
     };
