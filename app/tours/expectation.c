@@ -73,8 +73,8 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     if (name->indexed) {
         snprintf(index, sizeof index, "[%ld]", name->index);
     }
-    snprintf(word, sizeof word, "%.*s%s", (int)name->length, name->text,
-             index); /* an observable may be called q[1] */
+    /* an observable may be called q[1] */
+    snprintf(word, sizeof word, "%.*s%s", (int)name->length, name->text, index);
     size_t number = number_of(names, word), at = 0;
     const char *known = name_at(number, names);
     if (!known && name->indexed) {
@@ -84,9 +84,10 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     if (!known) {
         return GM_UNKNOWN;
     }
+    const size_t own = FIXED + GM_CLAIM_COUNT;
     const char *another;
-    for (size_t i = FIXED + GM_CLAIM_COUNT; (another = name_at(i, names)); i++) {
-        if (number < FIXED + GM_CLAIM_COUNT && strcmp(another, known) == 0) {
+    for (size_t i = own; number < own && (another = name_at(i, names)); i++) {
+        if (strcmp(another, known) == 0) {
             gm_refuse(sentence,
                       "%s is a name of all exercises and of this scene; give the scene's another name",
                       known);
