@@ -40,14 +40,13 @@ static void see(const char *path)
     gm_arguments_add(seen, path);
 }
 
-/* The name of a file in the page: with a tour its path from the folder of the tour, where the page begins, else without
-   folders. */
-static const char *name_of(const struct lesson *lesson, const char *path)
+/* The name of a file in the page: its path from the folder of another file, which is where the page begins. */
+static const char *name_beside(const struct lesson *lesson, const char *other, const char *path)
 {
-    const char *tour = lesson->tour ? lesson->file->path : NULL, *slash = tour ? strrchr(tour, '/') : NULL;
-    const size_t folder = slash ? (size_t)(slash + 1 - tour) : 0;
+    const char *slash = strrchr(other, '/');
+    const size_t folder = slash ? (size_t)(slash + 1 - other) : 0;
     char *name = gm_arena_print(lesson->options->arena, "%s", ""), *end;
-    path = !tour ? basename(path) : strncmp(path, tour, folder) == 0 ? path + folder : path;
+    path += strncmp(path, other, folder) == 0 ? folder : 0;
     for (size_t length; *path; path += length + strspn(path + length, "/")) {
         length = strcspn(path, "/");
         if (length == 2 && strncmp(path, "..", 2) == 0) {
@@ -61,13 +60,23 @@ static const char *name_of(const struct lesson *lesson, const char *path)
     return name;
 }
 
+/* The same for the file of a tour, else without folders. */
+static const char *name_of(const struct lesson *lesson, const char *path)
+{
+    return lesson->tour ? name_beside(lesson, lesson->file->path, path)
+                        : gm_arena_print(lesson->options->arena, "%s", basename(path));
+}
+
 static const char *read_text(const struct gm_options *options, const struct gm_file *file)
 {
     char message[GM_MESSAGE];
     size_t length;
     char *text = gm_file_read(file, LARGEST_FILE, &length, message);
     gm_command_end_if(options, !text, GM_EXIT_FILE, "%s", message);
-    return gm_arena_keep(options->arena, text, free);
+    gm_arena_keep(options->arena, text, free);
+    gm_command_end_if(options, strlen(text) != length, GM_EXIT_FILE,
+                      "%.300s has a zero byte; a page takes texts alone", file->path);
+    return text;
 }
 
 /* Adds a file to the page by this name there, which it returns. */
@@ -169,6 +178,19 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
     }
 }
 
+/* Adds the meshes that were read for the view, which a system names by paths from its own folder. */
+static void take_meshes(const struct lesson *lesson)
+{
+    for (int i = 0; i < seen->count; i++) {
+        if (gm_word_ends(seen->words[i], ".msh")) {
+            struct gm_file file = {0};
+            snprintf(file.path, sizeof file.path, "%s", seen->words[i]);
+            take(lesson, &file,
+                 name_beside(lesson, lesson->tour ? lesson->file->path : lesson->words->words[0], file.path));
+        }
+    }
+}
+
 static void drop_stream(void *writing)
 {
     free(gm_stream_end(writing));
@@ -188,6 +210,7 @@ static const char *print_view(const struct lesson *lesson)
     if (lesson->tour) {
         put_tour(lesson, &view);
     }
+    take_meshes(lesson);
     struct gm_row files = gm_row_open(&view, "files", '}');
     for (int i = 0; i < lesson->files->count; i += 3) {
         gm_row_text(&files, lesson->files->words[i + 1], lesson->files->words[i + 2]);
@@ -257,9 +280,10 @@ static void check_files(const struct lesson *lesson)
              k < lesson->files->count && !gm_command_same_file(lesson->files->words[k], seen->words[i]);) {
             k += 3;
         }
-        gm_command_end_if(lesson->options, k == lesson->files->count, GM_EXIT_USAGE,
-                          "a page takes the files of systems, schemes and tours along, but not %.200s",
-                          seen->words[i]);
+        gm_command_end_if(
+            lesson->options, k == lesson->files->count, GM_EXIT_USAGE,
+            "a page takes the files of systems, schemes, tours and meshes along, but not %.200s",
+            seen->words[i]);
     }
 }
 

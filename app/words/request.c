@@ -238,7 +238,8 @@ static void check_settings(struct gm_arena *arena, const struct gm_request *requ
     }
 }
 
-const char *gm_request_idle(const struct gm_request *request, const char *key)
+/* The reason why a key has no effect in any lane, or NULL. */
+static const char *why_idle(const struct gm_request *request, const char *key)
 {
     const char *why = NULL;
     for (size_t k = 0; k < request->count && (k == 0 || why); k++) {
@@ -249,14 +250,14 @@ const char *gm_request_idle(const struct gm_request *request, const char *key)
 
 bool gm_request_uses(const struct gm_request *request, const char *key)
 {
-    return !gm_request_idle(request, key) && is_taken(request, key);
+    return !why_idle(request, key) && is_taken(request, key);
 }
 
 /* Refuses a key without effect in any lane: the user expects one. */
 static void check_effects(struct gm_arena *arena, struct gm_request *request, const struct gm_words *words)
 {
     for (size_t i = 0; i < words->count; i++) {
-        const char *key = words->list[i].key, *why = gm_request_idle(request, key);
+        const char *key = words->list[i].key, *why = why_idle(request, key);
         if (why) {
             snprintf(request->refused, sizeof request->refused, "%s", key);
             gm_arena_refuse(arena, "%s= has no effect here: %s", key, why);

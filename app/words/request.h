@@ -80,9 +80,6 @@ void gm_request_close(void *request);
    sizes. */
 bool gm_request_ends_together(const struct gm_request *request, char *message);
 
-/* The reason why a key has no effect in any lane, or NULL. */
-const char *gm_request_idle(const struct gm_request *request, const char *key);
-
 /* True if a key has an effect in a lane at the start. */
 bool gm_request_uses(const struct gm_request *request, const char *key);
 

@@ -91,8 +91,10 @@ void gm_user_line_events(const struct gm_user_line *line, const double *events, 
     gm_tape_values(line->exact.outputs > 0 ? &line->exact : &line->start, events, values, count);
 }
 
-size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
-                          double values[GM_LINE_BLOCK])
+/* Writes the outputs at nodes from number `first` on, at most GM_LINE_ROOM, [output * nodes + i]. Returns the number of
+   nodes. */
+static size_t start_of_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
+                             double values[GM_LINE_BLOCK])
 {
     const size_t some = grid->points - first < GM_LINE_ROOM ? grid->points - first : GM_LINE_ROOM;
     double x[GM_LINE_ROOM];
@@ -107,7 +109,7 @@ void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *
 {
     double values[GM_LINE_BLOCK];
     for (size_t first = 0, some; first < grid->points; first += some) {
-        some = gm_user_line_block(line, grid, first, values);
+        some = start_of_block(line, grid, first, values);
         for (size_t k = 0; k < line->start.outputs; k++) {
             memcpy(y + k * grid->points + first, values + k * some, some * sizeof *y);
         }
@@ -130,7 +132,7 @@ void gm_user_line_levels(const struct gm_user_line *line, const struct gm_grid1 
     const bool known = line->exact.outputs > 0;
     double rates[GM_LINE_BLOCK], places[2 * GM_LINE_ROOM];
     for (size_t first = 0, some; first < points; first += some) {
-        some = gm_user_line_block(line, grid, first, rates);
+        some = start_of_block(line, grid, first, rates);
         for (size_t i = 0; i < some; i++) {
             y[first + i] = rates[i];
             y[points + first + i] = known ? 0 : taylor(rates + i, line->start.outputs, some, gap);
@@ -178,7 +180,7 @@ bool gm_user_line_closes(const struct gm_user_line *line, const struct gm_grid1 
     double values[GM_LINE_BLOCK];
     *ends = (struct gm_line_ends){.low = INFINITY, .high = -INFINITY};
     for (size_t first = 0, some; first < grid->points; first += some) {
-        some = gm_user_line_block(line, grid, first, values);
+        some = start_of_block(line, grid, first, values);
         for (size_t i = 0; i < some; i++) {
             if (!is_finite(line, values, some, i, component, &suffix)) {
                 return gm_fail(fault, 0, "%.60s%s at the start is not finite where x = %.6g", name, suffix,

@@ -59,12 +59,9 @@ double gm_user_line_exact(const struct gm_user_line *line, size_t component, dou
 /* Writes the exact solution at `count` places and times, [places, then times], as [component * count + i]; without one,
    what starts there. */
 void gm_user_line_events(const struct gm_user_line *line, const double *events, size_t count, double *values);
-
-/* Writes the outputs at nodes from number `first` on, at most GM_LINE_ROOM, [output * nodes + i]. Returns the number of
-   nodes. */
+/* Nodes that are evaluated together, and the most numbers of them. */
 enum { GM_LINE_ROOM = 128, GM_LINE_BLOCK = GM_LINE_ROOM * GM_MOST_OF_MATRICES };
-size_t gm_user_line_block(const struct gm_user_line *line, const struct gm_grid1 *grid, size_t first,
-                          double values[GM_LINE_BLOCK]);
+
 /* Writes the outputs at all nodes, [output * points + node]. */
 void gm_user_line_start(const struct gm_user_line *line, const struct gm_grid1 *grid, double *y);
 

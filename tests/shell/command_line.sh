@@ -799,7 +799,13 @@ printf '%s\n' '$MeshFormat' '2.2 0 8' '$EndMeshFormat' '$Nodes' 4 '1 0 0 0' '2 1
     '$Elements' 2 '1 2 2 1 1 1 2 3' '2 2 2 1 1 2 4 3' '$EndElements' >two.msh
 printf 'mesh: two.msh\nfield: u = 0-form\nrate: u = laplace(u)\nstart: u = 1 + x\nschemes: rk4\ndt: 0.05\n' >plate.system
 status 0 run plate.system steps=1
-refused 1 'a page takes the files of systems, schemes and tours along, but not two.msh' web plate.system -o none.html
+mkdir -p plates/meshes && cp plate.system plates && cp two.msh plates/meshes && sed -i 's/two.msh/meshes\/two.msh/' plates/plate.system
+status 0 web plates/plate.system -o page.html
+python3 - <<'END' || fail 'the mesh of a page'
+import json
+view = json.loads(open("page.html").read()[3:-5])
+assert view["words"] == ["plate.system"] and view["files"]["meshes/two.msh"] == open("two.msh").read(), view["files"]
+END
 refused 1 'web takes a scene or --tour' web disc --tour area -o none.html
 refused 3 'none/page.html could not be written: No such file' web disc -o none/page.html
 "$geomint" list crouzeix3 --source >own.scheme

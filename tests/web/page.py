@@ -461,6 +461,16 @@ async def other_views(port):
                                             "at('sheet-text').innerText.includes('order 4')"))
     with open(folder + "/mine.scheme", "w", encoding="utf-8") as file:
         file.write("geomint: 1\ntitle: mine\nkind: explicit\norder: 2\na: 0, 0 | 1/2, 0\nb: 0, 1\n")
+    os.makedirs(folder + "/plates/meshes")
+    with open(folder + "/plates/meshes/two.msh", "w", encoding="utf-8") as file:
+        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 .5 .8 0\n4 1.5 .8 0\n$EndNodes\n"
+                   "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 2 4 3\n$EndElements\n")
+    with open(folder + "/plates/plate.system", "w", encoding="utf-8") as file:
+        file.write("mesh: meshes/two.msh\nfield: u = 0-form\nrate: u = laplace(u)\nstart: u = 1 + x\nschemes: rk4\ndt: 0.05\n")
+    page = await Page().open(port, lesson("plate.html", folder + "/plates/plate.system"))
+    await page.click("forward")
+    check("the mesh of a file", numbers(await page.view()) == numbers(Native(folder + "/plates/plate.system").order("forward").view()),
+          await page.view())
     page = await Page().open(port, lesson("schemes.html", "kepler", "scheme=composition(verlet; 1/2, 1/2),kutta38," + folder +
                                           "/mine.scheme", "dt=0.05"))
     native = Native("kepler", "scheme=composition(verlet; 1/2, 1/2),kutta38," + folder + "/mine.scheme", "dt=0.05")

@@ -66,30 +66,6 @@ void gm_ring_solve(const struct gm_ring *ring, double *b)
     }
 }
 
-void gm_ring_unaverage(double *b, size_t count)
-{
-    double alternating = 0, largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        alternating += i % 2 ? -b[i] : b[i];
-        largest = fmax(largest, fabs(b[i]));
-    }
-    const bool even = count % 2 == 0;
-    double part = even ? alternating / (double)count : 0;
-    if (fabs(part) > 1e-7 * largest) {
-        part = NAN;
-    }
-    double f = even ? 0 : alternating, mean = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double given = b[i] - (i % 2 ? -part : part);
-        b[i] = f;
-        mean += i % 2 ? -f : f;
-        f = 2 * given - f;
-    }
-    for (size_t i = 0; even && i < count; i++) {
-        b[i] -= (i % 2 ? -mean : mean) / (double)count;
-    }
-}
-
 bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, double complex mean,
                         double complex difference, double h)
 {

@@ -20,11 +20,6 @@ struct gm_ring gm_ring_make(size_t count, double diagonal, double off);
 /* Replaces b by the solution. */
 void gm_ring_solve(const struct gm_ring *ring, double *b);
 
-/* Replaces b by f with (f_i + f_{i+1})/2 = b_i. On an even number of points no f has a mean that alternates.
-   An alternating part of b below 1e-7 of the largest entry is rounding and is left out, and f has no
-   alternating part. For a larger one there is no solution, and f is NaN. */
-void gm_ring_unaverage(double *b, size_t count);
-
 /* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit
    circle. */
 enum { GM_RING_ROOTS = 3 };
