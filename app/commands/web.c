@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "app/commands/commands.h"
 #include "app/grid/grid.h"
@@ -15,6 +16,8 @@
 #include "app/words/typed_file.h"
 #include "app/words/words.h"
 #include "core/arena.h"
+#include "core/basics.h"
+#include "core/expression/lines.h"
 #include "core/linear/cholesky.h"
 #include "render/files/regular_file.h"
 #include "render/files/temporary.h"
@@ -27,7 +30,6 @@ struct lesson {
     const char *title;
     const struct gm_tour *tour;
     const struct gm_file *file;       /* of the tour */
-    const char *text;                 /* of this file; NULL: the program has it inside */
     const struct gm_arguments *words; /* of the view */
     struct gm_arguments *files;       /* path, name and text of each */
 };
@@ -40,31 +42,37 @@ static void see(const char *path)
     gm_arguments_add(seen, path);
 }
 
-/* The name of a file in the page: its path from the folder of another file, which is where the page begins. */
-static const char *name_beside(const struct lesson *lesson, const char *other, const char *path)
+/* A path without . and .., from where the page begins. */
+static char *from_begin(const struct lesson *lesson, const char *path)
 {
-    const char *slash = strrchr(other, '/');
-    const size_t folder = slash ? (size_t)(slash + 1 - other) : 0;
-    char *name = gm_arena_print(lesson->options->arena, "%s", ""), *end;
-    path += strncmp(path, other, folder) == 0 ? folder : 0;
+    struct gm_arena *arena = lesson->options->arena;
+    char *name = gm_arena_print(arena, "%s", ""), *end;
     for (size_t length; *path; path += length + strspn(path + length, "/")) {
         length = strcspn(path, "/");
         if (length == 2 && strncmp(path, "..", 2) == 0) {
             end = strrchr(name, '/');
             *(end ? end : name) = '\0';
         } else if (length > 0 && !(length == 1 && *path == '.')) {
-            name =
-                gm_arena_print(lesson->options->arena, "%s%s%.*s", name, *name ? "/" : "", (int)length, path);
+            name = gm_arena_print(arena, "%s%s%.*s", name, *name ? "/" : "", (int)length, path);
         }
     }
     return name;
 }
 
-/* The same for the file of a tour, else without folders. */
+/* The length of a path's folders, with the last slash. */
+static size_t folders_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? (size_t)(slash + 1 - path) : 0;
+}
+
+/* The name of a file in the page: with a tour its path from the folder of the tour, which is where the page begins, else
+   without folders. */
 static const char *name_of(const struct lesson *lesson, const char *path)
 {
-    return lesson->tour ? name_beside(lesson, lesson->file->path, path)
-                        : gm_arena_print(lesson->options->arena, "%s", basename(path));
+    const char *tour = lesson->tour ? lesson->file->path : NULL;
+    const size_t folders = tour ? folders_of(tour) : folders_of(path);
+    return from_begin(lesson, tour && strncmp(path, tour, folders) != 0 ? path : path + folders);
 }
 
 static const char *read_text(const struct gm_options *options, const struct gm_file *file)
@@ -111,10 +119,6 @@ static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind
         take(lesson, &file, gm_arena_print(arena, "%s/%s", home, basename(file.path)));
         return word;
     }
-    gm_command_end_if(lesson->options, lesson->text && file.path[0] == '/' && strstr(lesson->text, file.path),
-                      GM_EXIT_USAGE,
-                      "a page has no folder of %.200s: a tour names its files by paths from its own folder",
-                      file.path);
     return take(lesson, &file, name_of(lesson, file.path));
 }
 
@@ -147,6 +151,25 @@ static void put_words(const struct lesson *lesson, struct gm_row *row, const cha
     }
 }
 
+/* The words of a study's command, with the names that its files have in the page. */
+static const char *tell_study(const struct lesson *lesson, const char *study, const char *words)
+{
+    struct gm_arena *arena = lesson->options->arena;
+    const struct gm_arguments *list = gm_arguments_of(arena, words);
+    const char *text = study;
+    for (int i = 0; i < list->count; i++) {
+        const char *word = list->words[i];
+        struct gm_text_stream writing;
+        FILE *stream = gm_stream_begin(&writing);
+        gm_arena_need(arena, stream);
+        gm_arguments_put_shell(stream,
+                               i > 0 ? take_schemes(lesson, word) : take_file(lesson, GM_FILE_SYSTEM, word));
+        text =
+            gm_arena_print(arena, "%s %s", text, (char *)gm_arena_keep(arena, gm_stream_end(&writing), free));
+    }
+    return text;
+}
+
 static void put_tour(const struct lesson *lesson, struct gm_row *view)
 {
     gm_row_put(view, "tour %s",
@@ -162,8 +185,7 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
                    step->until, step->seconds);
         if (step->study) {
             const char *study = gm_study_rows[step->study]->name;
-            gm_row_put(&row, "study %s",
-                       gm_arena_print(lesson->options->arena, "%s%s", study, step->study_words));
+            gm_row_put(&row, "study %s", tell_study(lesson, study, step->study_words));
         }
         if (step->show) {
             put_words(lesson, &row, "show", gm_arguments_of(lesson->options->arena, step->show));
@@ -178,15 +200,28 @@ static void put_tour(const struct lesson *lesson, struct gm_row *view)
     }
 }
 
-/* Adds the meshes that were read for the view, which a system names by paths from its own folder. */
+/* Adds the meshes that were read for the view, beside the files that name them by paths from their own folders. */
 static void take_meshes(const struct lesson *lesson)
 {
+    const int count = lesson->files->count;
     for (int i = 0; i < seen->count; i++) {
-        if (gm_word_ends(seen->words[i], ".msh")) {
-            struct gm_file file = {0};
-            snprintf(file.path, sizeof file.path, "%s", seen->words[i]);
+        struct gm_file file = {0};
+        const char *mesh = seen->words[i], *of = NULL;
+        size_t most = 0;
+        for (int k = 0; k < count; k += 3) {
+            const char *path = lesson->files->words[k];
+            const size_t folders = folders_of(path);
+            if (strncmp(mesh, path, folders) == 0 && (folders > 0 || mesh[0] != '/') &&
+                (!of || folders > most)) {
+                of = lesson->files->words[k + 1];
+                most = folders;
+            }
+        }
+        if (of && gm_word_ends(mesh, ".msh")) {
+            snprintf(file.path, sizeof file.path, "%s", mesh);
             take(lesson, &file,
-                 name_beside(lesson, lesson->tour ? lesson->file->path : lesson->words->words[0], file.path));
+                 from_begin(lesson, gm_arena_print(lesson->options->arena, "%.*s%s", (int)folders_of(of), of,
+                                                   mesh + most)));
         }
     }
 }
@@ -252,6 +287,31 @@ static void find_tour(const struct gm_options *options, struct gm_file *file)
                       unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
 }
 
+/* Refuses a tour that names a file by a path of this machine, which leads nowhere in a page. */
+static void check_paths(const struct gm_options *options, const char *text)
+{
+    static const char *const with_words[] = {"show", "at", "study"};
+    struct gm_text_line line;
+    struct gm_fault fault;
+    for (size_t at = 0; gm_lines_next(text, strlen(text), &at, &line, &fault);) {
+        bool has_words = false;
+        for (size_t i = 0; i < GM_COUNT(with_words); i++) {
+            has_words = has_words || gm_span_is(text, line.word, with_words[i]);
+        }
+        const size_t length = has_words ? line.value.end - line.value.begin : 0;
+        const char *value = gm_arena_print(options->arena, "%.*s", (int)length, text + line.value.begin);
+        const struct gm_arguments *words = gm_arguments_of(options->arena, value);
+        for (int i = 0; i < words->count; i++) {
+            const char *word = words->words[i];
+            gm_command_end_if(
+                options, word[0] == '/' || strstr(word, "=/") || strstr(word, ",/"), GM_EXIT_USAGE,
+                "a page does not have the folders of %.200s: its tour names files by paths from "
+                "its own folder",
+                word);
+        }
+    }
+}
+
 static void read_tour(const struct gm_options *options, const struct gm_file *file, struct gm_tour *tour)
 {
     char message[GM_MESSAGE];
@@ -272,7 +332,7 @@ static void try_lanes(const struct gm_options *options, const struct gm_request 
     }
 }
 
-/* Refuses a view for which a file was read that the page does not have, such as a mesh. */
+/* Refuses a view for which a file was read that the page does not have. */
 static void check_files(const struct lesson *lesson)
 {
     for (int i = 0, k; i < seen->count; i++) {
@@ -282,7 +342,7 @@ static void check_files(const struct lesson *lesson)
         }
         gm_command_end_if(
             lesson->options, k == lesson->files->count, GM_EXIT_USAGE,
-            "a page takes the files of systems, schemes, tours and meshes along, but not %.200s",
+            "a page takes files of systems, schemes and tours along, and meshes whose names end in .msh, but not %.200s",
             seen->words[i]);
     }
 }
@@ -295,8 +355,8 @@ int gm_command_web(const struct gm_options *options)
     struct gm_tour *tour = gm_arena_take(options->arena, 1, sizeof *tour);
     const struct gm_scene *scene = NULL;
     const char *path = options->lesson ? options->lesson : "lesson.html", *dot = strrchr(basename(path), '.');
-    gm_command_end_if(options, dot && strcmp(dot, ".html") != 0 && strcmp(dot, ".htm") != 0, GM_EXIT_USAGE,
-                      "a page is HTML: its name ends in .html, not in %.40s", dot);
+    gm_command_end_if(options, !dot || (strcasecmp(dot, ".html") != 0 && strcasecmp(dot, ".htm") != 0),
+                      GM_EXIT_USAGE, "a page is HTML: its name ends in .html or .htm, but not %.200s", path);
     gm_command_end_if(options, options->tour && lesson.words->count > 0, GM_EXIT_USAGE,
                       "web takes a scene or --tour, which has scenes of its own");
     struct gm_file file;
@@ -311,7 +371,9 @@ int gm_command_web(const struct gm_options *options)
         read_tour(options, &file, tour);
         lesson.tour = tour;
         lesson.file = &file;
-        lesson.text = file.built_in ? NULL : read_text(options, &file);
+        if (!file.built_in) {
+            check_paths(options, read_text(options, &file));
+        }
     } else if (lesson.words->count > 0) {
         request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
         scene = request->scene;

@@ -95,7 +95,7 @@ static struct gm_tour *find_tour(struct gm_arena *arena, struct grading *grading
     if (!found || !gm_tour_read(tour, &file, message)) {
         grading->status = found || unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
         gm_arena_refuse(arena, "%s%s", message,
-                        !grading->word && gm_word_ends(word, ending)
+                        !grading->word && gm_word_ends(word, ending) && access(file.path, F_OK) != 0
                             ? "; the tour may be named: geomint grade FILE.answer FILE.tour"
                             : "");
     }
@@ -140,7 +140,7 @@ static void grade(struct gm_arena *arena, void *data)
     const struct gm_tour_step *step = &tour->steps[(size_t)number - 1];
     gm_arena_refuse_if(arena, step->expectation_count == 0, "step %g of %s is not an exercise", number,
                        tour->name);
-    gm_refuse(grading->exercise, "%.100s, step %g: %.300s", tour->name, number, step->title);
+    gm_refuse(grading->exercise, "%s, step %g: %s", tour->name, number, step->title);
     struct gm_request *request = gm_arena_take(arena, 1, sizeof *request);
     gm_arena_check(arena, gm_request_recall(request, step->request.scene, grading->entries[RUN], message),
                    message);

@@ -66,10 +66,6 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
     struct names *names = data;
     struct gm_expectation *expectation = names->expectation;
     char word[96], index[32] = "";
-    if (name->initial) {
-        gm_refuse(sentence, "a condition compares values at the end alone");
-        return GM_REFUSED;
-    }
     if (name->indexed) {
         snprintf(index, sizeof index, "[%ld]", name->index);
     }
@@ -81,7 +77,7 @@ static enum gm_meaning find_name(void *data, const struct gm_name *name, gm_node
         gm_refuse(sentence, "there is no value %s; geomint list names those of the scene", word);
         return GM_REFUSED;
     }
-    if (!known) {
+    if (!known || name->initial) {
         return GM_UNKNOWN;
     }
     const size_t own = FIXED + GM_CLAIM_COUNT;
@@ -138,7 +134,7 @@ bool gm_expectation_read(struct gm_arena *arena, const struct gm_scene *scene, c
     const bool read =
         gm_formula_read(&expectation->graph, text, 0, strlen(text), &scope, &expectation->node, fault);
     return read && (expectation->count > 0 ||
-                    gm_fail(fault, 0, "a condition has the name of a value, as in energy_error < 1e-6"));
+                    gm_fail(fault, 0, "a condition names at least one value, as in energy_error < 1e-6"));
 }
 
 /* ---- grading ---- */
@@ -308,13 +304,19 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
         gm_refuse(sentence, "Not passed: %.100s has made no step since its last change.", title);
         return 0;
     }
-    /* The next step would lead beyond the end, or the last one of a scheme whose steps have several lengths did so. Where dt is
-       long, the lane must still be near the end, since otherwise the time could be chosen at which it is judged. */
-    const double left = step->until - run->t, dt = fabs(run->dt), near = (step->until - lane->t0) / 20;
-    const bool beyond = run->scheme->family->adaptive ? run->t_behind >= step->until : left < -1e-9 * dt;
+    if (run->dt < 0) {
+        gm_refuse(sentence, "Not passed: %.100s runs backwards in time.", title);
+        return 0;
+    }
+    /* The time at which a lane is judged is not chosen: a step of length dt would lead beyond the end, and one step earlier it
+       would not have done so. Where dt is long, the lane must still be near the end. */
+    const double left = step->until - run->t, dt = run->dt, near = (step->until - lane->t0) / 20;
+    const bool varies = run->scheme->family->adaptive; /* otherwise t has the rounding of n dt */
+    const bool beyond = varies ? step->until - run->t_behind < dt * (1 - 1e-9) : left < -2e-6 * dt;
     if (beyond || left >= dt * (1 - 1e-9) || fabs(left) > near) {
-        gm_refuse(sentence, "Not passed: %.100s is at t = %.6g, and the exercise ends at t = %.6g.", title,
-                  run->t, step->until);
+        const int digits = fabs(left) > 1e-5 * fabs(step->until) ? 6 : 15;
+        gm_refuse(sentence, "Not passed: %.100s is at t = %.*g, and the exercise ends at t = %.*g.", title,
+                  digits, run->t, digits, step->until);
         return 0;
     }
     if (changed) {
@@ -325,7 +327,9 @@ static size_t grade_lane(const struct gm_tour_step *step, const struct gm_reques
     for (size_t i = 0; i < step->expectation_count; i++) {
         const struct gm_expectation *expectation = &step->expectations[i];
         if (!meets(expectation, lane, values)) {
-            gm_refuse(sentence, "Not passed: %.100s misses %s: %s.", title, expectation->text, values);
+            char condition[160] = "";
+            gm_append(condition, sizeof condition, "%s", expectation->text);
+            gm_refuse(sentence, "Not passed: %.100s misses %s: %s.", title, condition, values);
             return i;
         }
         gm_append(sentence, GM_MESSAGE, "%s%s", values, i + 1 < step->expectation_count ? ", " : ".");

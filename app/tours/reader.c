@@ -222,6 +222,9 @@ static void read_change(const struct reader *reader, const struct entry *entry,
               "lane= goes with scheme=; a parameter changes in every lane");
     change.lane = has_lane ? (long)lane - 1 : GM_EVERY_LANE;
     change.text = list[count - 1];
+    const char *key = gm_arena_print(reader->arena, "%.*s", (int)strcspn(change.text, "="), change.text);
+    refuse_if(reader, !gm_scene_parameter(shown->scene, key) && gm_setting_find(key), entry->line,
+              "%.60s cannot be changed during the run", change.text);
     struct gm_lane *trial = gm_request_open_lane(shown, has_lane ? (size_t)change.lane : 0, message);
     const bool applied = trial && gm_change_apply(trial, change.text, message);
     gm_lane_close(trial);

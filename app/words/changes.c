@@ -36,16 +36,24 @@ static bool are_alike(const struct gm_request *request, const struct gm_paramete
     return alike;
 }
 
+/* The rows of the scene, then those of schemes. */
+static size_t row_count(const struct gm_request *request)
+{
+    return request->scene->parameter_count + gm_settings_parameter_count;
+}
+
+static const struct gm_parameter *row_at(const struct gm_request *request, size_t i)
+{
+    const size_t own = request->scene->parameter_count;
+    return i < own ? &request->scene->parameters[i] : &gm_settings_parameters[i - own];
+}
+
 /* Returns true if all lanes have the same values, so that no key is a list. */
 static bool are_copies(const struct gm_request *request)
 {
     bool alike = request->count > 1 && are_alike(request, NULL);
-    for (size_t i = 0; i < request->scene->parameter_count; i++) {
-        const struct gm_parameter *row = &request->scene->parameters[i];
-        alike = alike && (!gm_request_uses(request, row->key) || are_alike(request, row));
-    }
-    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        const struct gm_parameter *row = &gm_settings_parameters[i];
+    for (size_t i = 0; i < row_count(request); i++) {
+        const struct gm_parameter *row = row_at(request, i);
         alike = alike && (!gm_request_uses(request, row->key) || are_alike(request, row));
     }
     return alike;
@@ -97,16 +105,9 @@ char *gm_request_format(const struct gm_request *request)
     }
     gm_arguments_put_scene(stream, request->scene);
     int lists = format_key(stream, request, NULL, NULL, are_copies(request));
-    for (size_t i = 0; i < request->scene->parameter_count; i++) {
-        const struct gm_parameter *row = &request->scene->parameters[i];
+    for (size_t i = 0; i < row_count(request); i++) {
+        const struct gm_parameter *row = row_at(request, i);
         const bool always = row->required || has_key(&arguments, row->key);
-        if (gm_request_uses(request, row->key)) {
-            lists += format_key(stream, request, row, always ? NULL : row->standard, false);
-        }
-    }
-    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        const struct gm_parameter *row = &gm_settings_parameters[i];
-        const bool always = has_key(&arguments, row->key);
         if (gm_request_uses(request, row->key)) {
             lists += format_key(stream, request, row, always ? NULL : row->standard, false);
         }
@@ -227,6 +228,22 @@ static bool understand(const struct gm_scene *scene, void *parameters, struct gm
                    : gm_value_read(row, parameters, value, message);
 }
 
+/* The scheme of a lane at the time of a change; NULL: a change to it names none. */
+static const struct gm_scheme *scheme_at(const struct gm_request *request, const struct gm_change *change)
+{
+    const struct gm_scheme *scheme = request->lanes[change->lane].scheme;
+    for (size_t i = 0; i < request->change_count && &request->changes[i] != change; i++) {
+        const struct gm_change *earlier = &request->changes[i];
+        if (earlier->lane == change->lane && earlier->step <= change->step &&
+            strncmp(earlier->text, "scheme=", 7) == 0) {
+            char message[GM_MESSAGE];
+            bool unreadable;
+            scheme = gm_scheme_named(earlier->text + 7, &unreadable, message);
+        }
+    }
+    return scheme;
+}
+
 bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message)
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
@@ -241,8 +258,8 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
     struct meaning meaning;
     const double usual = ((const struct gm_timing *)parameters)->dt;
     struct gm_settings settings = spec->settings;
-    const bool understood =
-        understand(request->scene, parameters, &settings, NULL, change->text, &meaning, message);
+    const bool understood = understand(request->scene, parameters, &settings, scheme_at(request, change),
+                                       change->text, &meaning, message);
     free(parameters);
     if (!understood || isnan(meaning.dt) || fabs(meaning.dt) == fabs(usual)) { /* the sign may change */
         return understood;

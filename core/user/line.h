@@ -59,7 +59,8 @@ double gm_user_line_exact(const struct gm_user_line *line, size_t component, dou
 /* Writes the exact solution at `count` places and times, [places, then times], as [component * count + i]; without one,
    what starts there. */
 void gm_user_line_events(const struct gm_user_line *line, const double *events, size_t count, double *values);
-/* Nodes that are evaluated together, and the most numbers of them. */
+
+/* The greatest number of nodes that are evaluated together, and that of their outputs. */
 enum { GM_LINE_ROOM = 128, GM_LINE_BLOCK = GM_LINE_ROOM * GM_MOST_OF_MATRICES };
 
 /* Writes the outputs at all nodes, [output * points + node]. */

@@ -199,7 +199,7 @@ def _counted(value, what, first):
         number = operator.index(value)
     except TypeError as error:
         raise UsageError(f"{value!r} is not the number of a {what}") from error
-    if number < first:
+    if not first <= number < 2**63:
         raise UsageError(f"there is no {what} {number}; {what}s are counted from {first} on")
     return number
 

@@ -783,7 +783,8 @@ END
 printf 'title: x\nstep: a\nsay: b\nshow: ./systems/deep/own.system\n' >own.tour
 cp own.tour own.html
 refused 1 'would overwrite ./own.html, which is read' web --tour ./own.html -o own.html
-refused 1 'a page is HTML: its name ends in .html, not in .system' web --tour ./own.tour -o systems/deep/own.system
+refused 1 'a page is HTML: its name ends in .html or .htm, but not systems' web --tour ./own.tour -o systems/deep/own.system
+refused 1 'a page is HTML' web disc -o Makefile
 printf 'geomint: 1\ncoordinates: q\nmomenta: p\nH: p^2/2 + (\n' >wrong.system
 refused 1 'wrong.system:4:' web wrong.system -o none.html
 refused 1 'sphere' web disc scheme=sphere -o none.html
@@ -830,15 +831,24 @@ refused 1 'two different files are called deep/own.system' web --tour ./other/tw
 printf 'title: T\nstep: A\nsay: A.\nshow: own.system\nuntil: 1\nstep: B\nsay: B.\nshow: ./../deep/own.system\nuntil: 1\n' >deep/ways.tour
 status 0 web --tour ./deep/ways.tour -o page.html
 printf 'title: T\nstep: A\nsay: A.\nshow: %s/own.system\nuntil: 1\n' "$PWD/deep" >deep/absolute.tour
-refused 1 'a tour names its files by paths from its own folder' web --tour "$PWD/deep/absolute.tour" -o none.html
+refused 1 'its tour names files by paths from its own folder' web --tour "$PWD/deep/absolute.tour" -o none.html
+mkdir 'deep/a folder' && cp deep/own.system 'deep/a folder'
+sed -i 's/own.system/a\\ folder\/own.system/' deep/absolute.tour
+refused 1 'its tour names files by paths from its own folder' web --tour "$PWD/deep/absolute.tour" -o none.html
+printf '# %s\ntitle: T\nstep: A\nsay: /A/.\nshow: a\\ folder/own.system\nuntil: 1\nstudy: stability own.system scheme=rk4\n' "$PWD/deep/own.system" \
+    >deep/absolute.tour
+status 0 web --tour "$PWD/deep/absolute.tour" -o page.html
+grep -q '"study":"stability own.system scheme=rk4"' page.html || fail 'the study of a page'
 printf 'title: T\nstep: A\nsay: A.\nshow: folders-own\nuntil: 1\n' >deep/folder.tour
-mkdir of_user && cp deep/own.system of_user/folders-own.system
+mkdir -p of_user/meshes && cp plate.system of_user/folders-own.system && cp two.msh of_user/meshes
+sed -i 's/two.msh/meshes\/two.msh/' of_user/folders-own.system
 GEOMINT_SYSTEMS=$PWD/of_user status 0 web --tour ./deep/folder.tour -o folder.html
 python3 - <<'END' || fail 'a system of the folder'
 import json
 view = json.loads(open("folder.html").read()[3:-5])
 assert view["steps"][0]["show"][0] == "folders-own", view["steps"]
-assert sorted(view["files"]) == ["folder.tour", "home/web_user/.config/geomint/folders-own.system"], list(view["files"])
+folder = "home/web_user/.config/geomint/"
+assert sorted(view["files"]) == ["folder.tour", folder + "folders-own.system", folder + "meshes/two.msh"], list(view["files"])
 END
 cp "$GEOMINT_WEB" template.html
 GEOMINT_WEB=./template.html refused 1 'would overwrite ./template.html, which is read' web disc -o template.html

@@ -418,6 +418,17 @@ static void exercises_are_graded(void **unused)
     assert_null(geomint_answer(lab, "exercises", 1));
     geomint_close(lab);
 
+    /* steps of several lengths end alike when many are made together */
+    lab = geomint_explore(WORDS("kepler", "scheme=logh-kahan-li8", "eccentricity=0.9", "dt=0.1"));
+    good(geomint_advance(lab, 20 * M_PI), lab);
+    expect(geomint_grade(lab, "exercises", 3), lab, GEOMINT_OK, "Passed with logarithmic");
+    assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "steps: 623\n"));
+    good(geomint_forward(lab), lab);
+    expect(geomint_grade(lab, "exercises", 3), lab, GEOMINT_CLAIM, "is at t = 62.7767");
+    good(geomint_back(lab), lab);
+    expect(geomint_grade(lab, "exercises", 3), lab, GEOMINT_OK, "Passed with logarithmic");
+    geomint_close(lab);
+
     /* a setting is told with the scheme that takes it, also a later one */
     lab = geomint_explore(WORDS("kepler", "scheme=dopri5", "eccentricity=0.9", "tolerance=1e-4"));
     assert_non_null(strstr(geomint_answer(lab, "exercises", 3), "tolerance="));

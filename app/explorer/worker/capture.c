@@ -148,7 +148,6 @@ bool gm_capture_save_answer(const struct gm_play *play, char *sentence)
     const bool fits = !text || strlen(text) <= GM_MOST_ANSWER;
     const int error = !text ? ENOMEM : fits ? gm_temporary_write(path, text, strlen(text)) : E2BIG;
     free(text);
-    char command[GM_MESSAGE] = "";
     struct gm_text_stream writing;
     FILE *stream = gm_stream_begin(&writing);
     if (stream) {
@@ -157,11 +156,13 @@ bool gm_capture_save_answer(const struct gm_play *play, char *sentence)
             fputc(' ', stream);
             gm_arguments_put_shell(stream, agenda->tour->path);
         }
-        char *words = gm_stream_end(&writing);
-        snprintf(command, sizeof command, "%.300s", words ? words : "");
-        free(words);
     }
-    return error == 0 ? gm_refuse(sentence, "Saved %.100s: geomint grade %.300s repeats it.", path, command)
+    char command[320] = "", *words = gm_stream_end(&writing);
+    if (words && strlen(words) <= 300) { /* a command that is cut would be another one */
+        snprintf(command, sizeof command, " %s", words);
+    }
+    free(words);
+    return error == 0 ? gm_refuse(sentence, "Saved %.100s: geomint grade%s repeats it.", path, command)
            : !fits    ? gm_refuse(sentence, "Not saved: restart with r and change less during the run.")
                       : gm_refuse(sentence, "Not saved: %.400s: %.60s", path,
                                error == ENOMEM ? "not enough memory" : strerror(error));

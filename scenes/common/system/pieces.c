@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/expression/lines.h"
 #include "core/model/equations.h"
 
 double *gm_system_start_values(const struct gm_system_lane *lane, const char *given)
@@ -94,23 +95,37 @@ struct gm_system_measure *gm_system_add_observable(struct gm_system_scene *syste
 
 /* ---- keys ---- */
 
-/* Returns true if a parameter determines the step, by the line `tie`, and no other formula has it. */
-static bool sets_step(struct gm_system_scene *system_scene, size_t number)
+/* Returns true if a line of a system has a name. */
+static bool has_name(const char *text, struct gm_span span, const char *name)
 {
-    const struct gm_user_system *system = &system_scene->system;
+    bool found = false;
+    for (size_t at = span.begin, length; at < span.end && !found; at += length) {
+        const size_t letters = gm_name_length(text + at, span.end - at);
+        found = gm_text_same(text + at, letters, name, strlen(name));
+        length = letters > 0 ? letters : 1;
+    }
+    return found;
+}
+
+/* Returns true if a parameter determines the step, by the line `tie`, and no other line of equations has it. */
+static bool sets_step(const struct gm_user_system *system, size_t number)
+{
+    static const char *const others[] = {"tie", "title", "subtitle", "about", "watch", "caption", "figure"};
     const struct gm_system_item *tie = gm_system_item_of(system, GM_WORD_TIE, 0);
-    if (!tie || tie->variable != number) {
-        return false;
+    const char *text = system->source, *name = system->variables[number].name;
+    struct gm_text_line line;
+    struct gm_fault fault;
+    bool alone = tie && tie->variable == number;
+    for (size_t at = 0; alone && gm_lines_next(text, strlen(text), &at, &line, &fault);) {
+        const size_t first = gm_name_length(text + line.value.begin, line.value.end - line.value.begin);
+        bool passes = gm_span_is(text, line.word, "parameter") &&
+                      gm_text_same(text + line.value.begin, first, name, strlen(name));
+        for (size_t i = 0; i < GM_COUNT(others); i++) {
+            passes = passes || gm_span_is(text, line.word, others[i]);
+        }
+        alone = passes || !has_name(text, line.value, name);
     }
-    bool *marked = gm_arena_take(system_scene->arena, system->variable_count, sizeof *marked);
-    marked[number] = true;
-    const bool *dependent = gm_arena_keep(
-        system_scene->arena, gm_formula_dependent(&system->graph, marked, system->variable_count), free);
-    size_t count = 0;
-    for (gm_node_id node = 0; node < system->graph.count; node++) {
-        count += dependent[node];
-    }
-    return count <= 1; /* the parameter itself */
+    return alone;
 }
 
 void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_parameter *timing,
@@ -147,7 +162,7 @@ void gm_system_make_rows(struct gm_system_scene *system_scene, const struct gm_p
             gm_written_row(arena, variable, start[number], is_start ? "where it starts" : "a parameter",
                            offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double));
         system_scene->rows[row].starts = is_start;
-        system_scene->rows[row].sets_step = !is_start && sets_step(system_scene, number);
+        system_scene->rows[row].sets_step = !is_start && sets_step(system, number);
         system_scene->rows[row++].required = typed;
     }
     system_scene->row_count = row;
