@@ -107,15 +107,15 @@ static const char *take(const struct lesson *lesson, const struct gm_file *file,
 /* The word as the page has it: with the name that its file has there, which is added to the page. */
 static const char *take_file(const struct lesson *lesson, enum gm_file_kind kind, const char *word)
 {
-    static const char home[] =
-        "home/web_user/.config/geomint"; /* there a name without a path is looked up in a page */
+    /* there a name without a path is looked up in a page */
+    static const char home[] = "home/web_user/.config/geomint";
     struct gm_arena *arena = lesson->options->arena;
     struct gm_file file;
     if (!gm_file_find(kind, word, &file) || file.built_in) {
         return word;
     }
-    if (lesson->tour &&
-        !gm_word_ends(word, gm_file_endings[kind])) { /* the tour's own text names it in this way */
+    /* the text of a tour, which the page reads again, names it in this way */
+    if (lesson->tour && !gm_word_ends(word, gm_file_endings[kind])) {
         take(lesson, &file, gm_arena_print(arena, "%s/%s", home, basename(file.path)));
         return word;
     }
@@ -158,14 +158,14 @@ static const char *tell_study(const struct lesson *lesson, const char *study, co
     const struct gm_arguments *list = gm_arguments_of(arena, words);
     const char *text = study;
     for (int i = 0; i < list->count; i++) {
-        const char *word = list->words[i];
+        const char *word = list->words[i],
+                   *taken = i > 0 ? take_schemes(lesson, word) : take_file(lesson, GM_FILE_SYSTEM, word);
         struct gm_text_stream writing;
         FILE *stream = gm_stream_begin(&writing);
         gm_arena_need(arena, stream);
-        gm_arguments_put_shell(stream,
-                               i > 0 ? take_schemes(lesson, word) : take_file(lesson, GM_FILE_SYSTEM, word));
-        text =
-            gm_arena_print(arena, "%s %s", text, (char *)gm_arena_keep(arena, gm_stream_end(&writing), free));
+        gm_arguments_put_shell(stream, taken);
+        const char *quoted = gm_arena_keep(arena, gm_stream_end(&writing), free);
+        text = gm_arena_print(arena, "%s %s", text, quoted);
     }
     return text;
 }
