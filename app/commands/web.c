@@ -170,11 +170,39 @@ static const char *tell_study(const struct lesson *lesson, const char *study, co
     return text;
 }
 
+/* Refuses a tour that names a file by a path of this machine, which leads nowhere in a page. */
+static void check_paths(const struct gm_options *options, const char *text)
+{
+    static const char *const with_words[] = {"show", "at", "study"};
+    struct gm_text_line line;
+    struct gm_fault fault;
+    for (size_t at = 0; gm_lines_next(text, strlen(text), &at, &line, &fault);) {
+        bool has_words = false;
+        for (size_t i = 0; i < GM_COUNT(with_words); i++) {
+            has_words = has_words || gm_span_is(text, line.word, with_words[i]);
+        }
+        const size_t length = has_words ? line.value.end - line.value.begin : 0;
+        const char *value = gm_arena_print(options->arena, "%.*s", (int)length, text + line.value.begin);
+        const struct gm_arguments *words = gm_arguments_of(options->arena, value);
+        for (int i = 0; i < words->count; i++) {
+            const char *word = words->words[i];
+            gm_command_end_if(
+                options, word[0] == '/' || strstr(word, "=/") || strstr(word, ",/"), GM_EXIT_USAGE,
+                "a page does not have the folders of %.200s: its tour names files by paths from "
+                "its own folder",
+                word);
+        }
+    }
+}
+
 static void put_tour(const struct lesson *lesson, struct gm_row *view)
 {
-    gm_row_put(view, "tour %s",
-               lesson->file->built_in ? lesson->tour->name
-                                      : take(lesson, lesson->file, name_of(lesson, lesson->file->path)));
+    const char *name = lesson->tour->name;
+    if (!lesson->file->built_in) {
+        name = take(lesson, lesson->file, name_of(lesson, lesson->file->path));
+        check_paths(lesson->options, lesson->files->words[lesson->files->count - 1]);
+    }
+    gm_row_put(view, "tour %s", name);
     struct gm_row steps = gm_row_open(view, "steps", ']');
     for (size_t i = 0; i < lesson->tour->count; i++) {
         const struct gm_tour_step *step = &lesson->tour->steps[i];
@@ -287,31 +315,6 @@ static void find_tour(const struct gm_options *options, struct gm_file *file)
                       unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE, "%s", message);
 }
 
-/* Refuses a tour that names a file by a path of this machine, which leads nowhere in a page. */
-static void check_paths(const struct gm_options *options, const char *text)
-{
-    static const char *const with_words[] = {"show", "at", "study"};
-    struct gm_text_line line;
-    struct gm_fault fault;
-    for (size_t at = 0; gm_lines_next(text, strlen(text), &at, &line, &fault);) {
-        bool has_words = false;
-        for (size_t i = 0; i < GM_COUNT(with_words); i++) {
-            has_words = has_words || gm_span_is(text, line.word, with_words[i]);
-        }
-        const size_t length = has_words ? line.value.end - line.value.begin : 0;
-        const char *value = gm_arena_print(options->arena, "%.*s", (int)length, text + line.value.begin);
-        const struct gm_arguments *words = gm_arguments_of(options->arena, value);
-        for (int i = 0; i < words->count; i++) {
-            const char *word = words->words[i];
-            gm_command_end_if(
-                options, word[0] == '/' || strstr(word, "=/") || strstr(word, ",/"), GM_EXIT_USAGE,
-                "a page does not have the folders of %.200s: its tour names files by paths from "
-                "its own folder",
-                word);
-        }
-    }
-}
-
 static void read_tour(const struct gm_options *options, const struct gm_file *file, struct gm_tour *tour)
 {
     char message[GM_MESSAGE];
@@ -371,9 +374,6 @@ int gm_command_web(const struct gm_options *options)
         read_tour(options, &file, tour);
         lesson.tour = tour;
         lesson.file = &file;
-        if (!file.built_in) {
-            check_paths(options, read_text(options, &file));
-        }
     } else if (lesson.words->count > 0) {
         request = gm_command_parse(options, lesson.words->count, lesson.words->words, GM_RENDER_SCHEMES);
         scene = request->scene;

@@ -672,11 +672,11 @@ bool gm_session_advance(struct gm_session *session, double t)
     const int64_t before = lane->run->steps;
     const double dt = lane->run->dt, steps = (t - lane->run->t) / dt;
     const int64_t burst = steps > 2 * RECORDS ? (int64_t)fmin(steps / RECORDS, 1e6) : 1;
+    /* steps of an adaptive scheme may be longer than dt: they end when a step of dt would lead beyond the time */
+    const double end = lane->scheme->family->adaptive && dt > 0 ? t - dt * (1 - 1e-9) : INFINITY;
     gm_lane_to(lane, before + 1, INFINITY);
-    if (burst >
-        1) { /* steps of an adaptive scheme may be longer than dt: they end when a step of dt would be too long */
-        gm_lane_to(lane, before + burst,
-                   lane->scheme->family->adaptive && dt > 0 ? t - dt * (1 - 1e-9) : INFINITY);
+    if (burst > 1) {
+        gm_lane_to(lane, before + burst, end);
     }
     gm_lane_record(lane);
     if (goes(lane)) {

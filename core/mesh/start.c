@@ -256,6 +256,11 @@ double gm_mesh_measure(const struct gm_mesh *mesh, const double *state, enum gm_
     return good || measure == GM_MEASURE_NARROWEST ? values[measure] : NAN;
 }
 
+double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
+{
+    return gm_mesh_measure(mesh, state, GM_MEASURE_ENERGY);
+}
+
 bool gm_mesh_mass_matrix(const struct gm_mesh *mesh, const double *state, double *matrix)
 {
     const size_t n = 2 * mesh->points;

@@ -681,7 +681,7 @@ async function grade() {
     }
     showStep(false);
     at('tour-text').append(make('p', {id: 'verdict', className: passed ? 'ask' : '', textContent: verdict}),
-        make('p', null, passed ? step.answer : answer && step.hint || ''), refused === verdict ? '' : refused);
+        make('p', null, (passed ? step.answer : answer && step.hint) || ''), refused === verdict ? '' : refused);
     at('hand-in').hidden = !answer;
     at('grade').scrollIntoView({block: 'nearest'});
     return answer;

@@ -122,7 +122,7 @@ static double middle(double low, double high)
 
 /* Computes a cell's box, radius and cells. Returns false when out of memory, or if a coordinate is not
    finite. */
-static bool divide(struct tree *tree, size_t index)
+static bool subdivide(struct tree *tree, size_t index)
 {
     struct cell *cell = &tree->cells[index];
     const double *x = tree->x, *y = tree->y;
@@ -172,7 +172,7 @@ static bool divide(struct tree *tree, size_t index)
     }
     const size_t child = cell->child, children = (size_t)cell->children;
     for (size_t i = 0; i < children; i++) {
-        if (!divide(tree, child + i)) {
+        if (!subdivide(tree, child + i)) {
             return false;
         }
     }
@@ -313,8 +313,8 @@ static inline void take_powers(double *restrict re, double *restrict im, double 
 }
 
 /* sums_l = sum_k matrix_kl coefficients_k powers_k, of complex numbers whose imaginary parts lie `terms` behind. */
-static inline void multiply(const struct tree *tree, const double *coefficients, const double *powers,
-                            double *sums)
+static inline void multiply_series(const struct tree *tree, const double *coefficients, const double *powers,
+                                   double *sums)
 {
     const size_t terms = tree->terms;
     double turned[2 * MOST_TERMS];
@@ -358,7 +358,7 @@ static void act(struct tree *tree, const struct cell *one, const struct cell *ot
     double of_one[2 * MOST_TERMS], of_other[2 * MOST_TERMS], sums[2 * MOST_TERMS];
     take_powers(of_one, of_one + terms, -w_x * unit_of(one), -w_y * unit_of(one), terms);
     take_powers(of_other, of_other + terms, w_x * unit_of(other), w_y * unit_of(other), terms);
-    multiply(tree, moments_of(tree, other), of_other, sums);
+    multiply_series(tree, moments_of(tree, other), of_other, sums);
     if (of_logarithms) {
         const double *moments = moments_of(tree, one);
         double sum = (double)one->count * (double)other->count * gm_log(square) / 2;
@@ -371,7 +371,7 @@ static void act(struct tree *tree, const struct cell *one, const struct cell *ot
         return;
     }
     expand(expansion_of(tree, one), of_one, sums, w_x, w_y, terms);
-    multiply(tree, moments_of(tree, one), of_one, sums);
+    multiply_series(tree, moments_of(tree, one), of_one, sums);
     expand(expansion_of(tree, other), of_other, sums, -w_x, -w_y, terms);
 }
 
@@ -496,7 +496,7 @@ static bool open_tree(struct tree *tree, const double *state, size_t count, doub
     choose(tree, tolerance);
     fill_matrix(tree, of_logarithms);
     tree->cells[0] = (struct cell){.count = count};
-    if (!divide(tree, 0)) {
+    if (!subdivide(tree, 0)) {
         return false;
     }
     tree->lists = malloc(4 * tree->filled * sizeof *tree->lists);
