@@ -11,6 +11,7 @@ const colours = [['#0379db', '#83d1ff'], ['#ec5100', '#ffa226'], ['#1aa770', '#7
 const most = 6; // lanes
 
 let view = null, schemes = [], words = lesson.words.length > 0 ? lesson.words : ['kepler'], playing = false, speed = 1, chosen = 0, scene = '', forking = false, started = false;
+let late = false, due = null; // steps are late; all that is shown will be renewed
 let theme = null; // what was chosen instead of the system's
 
 function make(name, properties, ...inside) {
@@ -155,18 +156,30 @@ function show(news) {
     if (news.refused) {
         say(news.refused, true);
     } else {
-        Object.assign(canvas, {width: news.picture.width, height: news.picture.height});
+        if (canvas.width !== news.picture.width || canvas.height !== news.picture.height) { // the layout is computed anew
+            Object.assign(canvas, {width: news.picture.width, height: news.picture.height});
+        }
         paper.transferFromImageBitmap(news.picture);
     }
     document.body.dataset.frames = 1 + Number(document.body.dataset.frames || 0);
     document.body.dataset.cost = news.cost.toFixed(1);
     view = news.view;
     playing = news.playing;
-    showAll(news.late);
+    late = news.late;
+    if (playing) { // digits that change with every frame cannot be read, and cost as much as a picture
+        due ??= setTimeout(showAll, 100);
+    } else {
+        showAll();
+    }
     ask('shown');
 }
 
-function showAll(late) {
+function showAll() {
+    clearTimeout(due);
+    due = null;
+    if (!view) { // another program is loaded
+        return;
+    }
     at('play').textContent = playing ? '❚❚' : '▶';
     at('play').setAttribute('aria-label', playing ? 'pause' : 'play');
     at('reverse').setAttribute('aria-pressed', view.backwards);
@@ -425,7 +438,7 @@ async function open(list, changes) {
     document.title = at('title').textContent;
     fault('');
     showSchemes();
-    showAll(false);
+    showAll();
     return '';
 }
 
@@ -481,7 +494,7 @@ addEventListener('hashchange', () => {
 
 // ---- time ----
 
-const play = on => { playing = on; ask('play', on); showAll(false); };
+const play = on => { playing = on; ask('play', on); showAll(); };
 const pauseAnd = async (...values) => { await ask('play', false); return order(...values); };
 // Sets the nearest of the speeds 1, 2, 5, 10 ... times a power of ten, or the next one to it.
 function setSpeed(wanted, direction = 0) {
@@ -489,7 +502,7 @@ function setSpeed(wanted, direction = 0) {
     speed = Number(`${[1, 2, 5][place - 3 * tens]}e${tens}`);
     ask('speed', speed);
 }
-const faster = direction => { setSpeed(speed, direction); showAll(false); };
+const faster = direction => { setSpeed(speed, direction); showAll(); };
 at('play').onclick = () => play(!playing);
 at('back').onclick = () => pauseAnd('back');
 at('forward').onclick = () => pauseAnd('forward');

@@ -495,8 +495,12 @@ async def looks(port):
                 page = await Page().open(port, url, width, height, dark, ratio)
                 await page.value("next()" if name == "tour" else "0")
                 await page.value("play(true)")
+                first = await page.value("at('clock').textContent")
+                await page.until(f"playing && at('clock').textContent !== {json.dumps(first)}")
                 await asyncio.sleep(1.5)
-                await page.value("play(false)")
+                await page.act("play(false)")
+                check(f"the side of {name} tells of its picture",
+                      await page.value("at('clock').textContent === `t = ${digits(view.t)}` && due === null"))
                 wide = await page.value("document.documentElement.scrollWidth")
                 check(f"{name} fits {width} pixels", wide <= width, wide)
                 cost = await page.value("document.body.dataset.cost")
