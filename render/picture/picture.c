@@ -218,6 +218,16 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
     return mark;
 }
 
+void gm_marks_repeat(struct gm_picture *picture, struct gm_panel *panel, const struct gm_mark *first,
+                     const struct gm_mark *last)
+{
+    for (const struct gm_mark *mark = first; mark; mark = mark == last ? NULL : mark->next) {
+        struct gm_mark *copy = mark_add(picture, panel, mark->kind, mark->style);
+        *copy = *mark;
+        copy->next = NULL;
+    }
+}
+
 bool gm_mark_is_shown(const struct gm_mark *mark, double width, double height)
 {
     const double side = width < height ? width : height;

@@ -183,6 +183,9 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
 struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
                               double low, double high, const double corners[4], const double *values,
                               size_t rows, size_t columns);
+/* Adds marks of another panel to one with the same axes: from `first` to `last`, whose points both share. */
+void gm_marks_repeat(struct gm_picture *picture, struct gm_panel *panel, const struct gm_mark *first,
+                     const struct gm_mark *last);
 /* Returns true if a panel of that width and height, in dots of its painter, shows the mark. */
 bool gm_mark_is_shown(const struct gm_mark *mark, double width, double height);
 /* Adds the lines of equal value of a triangle mesh, at `levels`. */

@@ -190,6 +190,32 @@ static void level_lines_are_whole_and_in_place(void **state)
     gm_picture_close(picture);
 }
 
+static void marks_are_repeated(void **state)
+{
+    (void)state;
+    struct gm_picture *picture = gm_picture_open();
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, ""),
+                    *other = gm_panel_add(picture, GM_PLACE_STATE, "");
+    static const double points[] = {0, 0, 1, 1};
+    gm_mark_line(picture, panel, line_style, points, 2, false);
+    const struct gm_mark *first = gm_mark_line(picture, panel, line_style, points, 2, true);
+    const struct gm_mark *last = gm_mark_text(picture, panel, line_style, 0, 0, GM_ANCHOR_LEFT, "word");
+    gm_mark_points(picture, panel, line_style, points, 2);
+    gm_mark_points(picture, other, line_style, points, 1);
+    gm_marks_repeat(picture, other, NULL, last);
+    assert_int_equal(marks_of(other), 1);
+    gm_marks_repeat(picture, other, first, last);
+    assert_int_equal(marks_of(panel), 4);
+    assert_int_equal(marks_of(other), 3);
+    assert_true(other->first->next->closed);
+    assert_ptr_equal(other->first->next->points, first->points);
+    assert_string_equal(other->last->text, "word");
+    gm_mark_points(picture, other, line_style, points, 2);
+    assert_int_equal(marks_of(other), 4);
+    assert_int_equal(marks_of(panel), 4);
+    gm_picture_close(picture);
+}
+
 static void check_rounded(enum gm_scale scale, double low, double high, double round_low, double round_high)
 {
     for (int again = 0; again < 2; again++) { /* rounding twice changes nothing */
@@ -232,6 +258,7 @@ static void ranges_grow_in_calm_steps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(marks_are_repeated),
         cmocka_unit_test(lines_break_where_they_cannot_be_drawn),
         cmocka_unit_test(closed_lines_open_at_a_gap),
         cmocka_unit_test(nothing_undrawable_reaches_painters),

@@ -62,9 +62,8 @@ static double extent(const struct gm_seen *seen)
                 seen->high[2] - seen->low[2]);
 }
 
-/* Returns the range of all that a lane has shown up to now. */
-static struct gm_seen lane_range(struct gm_picture *picture, const struct gm_lane *lane,
-                                 const struct gm_paths *paths, double *numbers)
+/* Returns the range of all that a lane has shown up to now, without its levels. */
+static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_paths *paths, double *numbers)
 {
     const struct gm_sight *sight = paths->sight;
     struct gm_seen range = nothing;
@@ -83,9 +82,6 @@ static struct gm_seen lane_range(struct gm_picture *picture, const struct gm_lan
     for (size_t member = 0; member < m; member += stride) {
         gm_sight_values(sight, &view, m - 1 - member, numbers);
         hold(&range, numbers, gm_sight_numbers(sight) / dimensions, dimensions);
-    }
-    if (dimensions == 2) {
-        gm_system_hold_levels(picture, lane, sight, &range);
     }
     if (sight->over_time) {
         range.low[0] = range.high[0] = 0; /* its axis is the one of all times */
@@ -110,6 +106,31 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
            one->shape == other->shape &&
            memcmp(one->values, other->values,
                   (one->owner->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) == 0;
+}
+
+/* Returns true if two lanes have the same levels. */
+static bool have_same_levels(const struct gm_lane *a, const struct gm_lane *b)
+{
+    return gm_lane_view(a).t == gm_lane_view(b).t && is_same(a, b);
+}
+
+/* Adds the closed levels around its start to the range of each lane. */
+static void hold_levels(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        const struct gm_paths *paths, struct gm_seen *ranges)
+{
+    struct gm_seen *levels = gm_picture_memory(picture, count * sizeof *levels);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_sight *sight = paths[i].sight;
+        size_t like = 0;
+        while (like < i && !(paths[like].sight == sight && have_same_levels(lanes[like], lanes[i]))) {
+            like++;
+        }
+        levels[i] = like < i ? levels[like] : nothing;
+        if (like == i && sight->dimensions == 2) {
+            gm_system_hold_levels(picture, lanes[i], sight, &levels[i]);
+        }
+        hold_range(&ranges[i], &levels[i]);
+    }
 }
 
 /* A lane has left if its range exceeds the smallest one of its system by this factor: its panel follows it on
@@ -498,6 +519,32 @@ static struct gm_paths paths_of(struct gm_picture *picture, const struct gm_lane
                              .member_count = followed};
 }
 
+/* The levels that a panel shows, as marks. */
+struct shown_levels {
+    const struct gm_lane *lane;
+    const struct gm_sight *sight;
+    const struct gm_panel *panel;
+    const struct gm_mark *first, *last;
+};
+
+static bool has_same_axes(const struct gm_panel *a, const struct gm_panel *b)
+{
+    return a->x.low == b->x.low && a->x.high == b->x.high && a->y.low == b->y.low && a->y.high == b->y.high;
+}
+
+/* Draws the levels of a lane, or repeats those of a panel before. */
+static void draw_levels(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                        const struct gm_sight *sight, struct shown_levels *shown)
+{
+    const struct gm_mark *before = panel->last;
+    if (shown->sight == sight && has_same_axes(shown->panel, panel) && have_same_levels(shown->lane, lane)) {
+        gm_marks_repeat(picture, panel, shown->first, shown->last);
+        return;
+    }
+    gm_system_draw_levels(picture, panel, lane, sight);
+    *shown = (struct shown_levels){lane, sight, panel, before ? before->next : panel->first, panel->last};
+}
+
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     size_t most = 0;
@@ -510,11 +557,13 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
     double *numbers = gm_picture_memory(picture, (most + 1) * sizeof *numbers);
     for (size_t i = 0; i < count; i++) {
-        ranges[i] = lane_range(picture, lanes[i], &paths[i], numbers);
+        ranges[i] = lane_range(lanes[i], &paths[i], numbers);
     }
+    hold_levels(picture, lanes, count, paths, ranges);
     set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
     const struct gm_lane *leader = NULL; /* the first lane of the panel */
+    struct shown_levels levels = {0};
     struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         const size_t lane = walk.next - 1;
@@ -538,7 +587,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
             gm_system_draw_portrait(picture, panel, walk.lane);
         }
         if (sight->dimensions == 2 && (walk.first || !is_same(walk.lane, leader))) {
-            gm_system_draw_levels(picture, panel, walk.lane, sight);
+            draw_levels(picture, panel, walk.lane, sight, &levels);
         }
         leader = walk.first ? walk.lane : leader;
         if (sight->dimensions == 3) {
