@@ -6,17 +6,15 @@
 #include <stdlib.h>
 
 #include "core/functions/complex.h"
-#include "core/linear/fourier.h"
 
 /* The trapezoidal rule on p times the derivative of the trigonometric polynomial through q, by Parseval's theorem
        sum_j p_j q'_j 2 pi / N = 2 pi sum_w i w q_w conj(p_w) = -4 pi sum_(w > 0) w im(q_w conj(p_w)),
    exact for curves of fewer than N / 2 waves. Of constant p exactly 0 is left. */
-bool gm_curve_add_action(const double *q, const double *p, size_t count, struct gm_curve_action *sum)
+bool gm_curve_add_action(struct gm_fourier *fourier, const double *q, const double *p, size_t count,
+                         struct gm_curve_action *sum)
 {
     double complex *waves = malloc(2 * count * sizeof *waves);
-    struct gm_fourier *fourier = waves ? gm_fourier_open(count) : NULL;
-    if (!fourier) {
-        free(waves);
+    if (!waves) {
         return false;
     }
     for (size_t i = 0; i < count; i++) {
@@ -25,7 +23,6 @@ bool gm_curve_add_action(const double *q, const double *p, size_t count, struct 
     }
     gm_fourier_forward(fourier, waves);
     gm_fourier_forward(fourier, waves + count);
-    gm_fourier_close(fourier);
     double action = 0;
     for (size_t w = 1; 2 * w < count; w++) {
         const double complex share = waves[w] / (double)count * conj(waves[count + w]) / (double)count;

@@ -24,7 +24,15 @@ struct gm_timing {
 
 /* Results that a lane's observables have stored, and the function that frees them; NULL at first. Each kind
    has an index. */
-enum { GM_WORKED_ENERGY, GM_WORKED_GROWTH, GM_WORKED_VOLUME, GM_WORKED_REASON, GM_WORKED_FOUND, GM_WORKED };
+enum {
+    GM_WORKED_ENERGY,
+    GM_WORKED_GROWTH,
+    GM_WORKED_VOLUME,
+    GM_WORKED_REASON,
+    GM_WORKED_FOUND,
+    GM_WORKED_TRANSFORM,
+    GM_WORKED
+};
 struct gm_worked {
     void *data;
     void (*forget)(void *data);

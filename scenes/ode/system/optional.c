@@ -453,14 +453,25 @@ static double resolved(const struct gm_curve_action *loop, double share)
     return resolution_of(loop) <= share ? loop->action : NAN;
 }
 
+/* Returns the transform of the ring's points, whose number never changes; NULL without a ring or memory. */
+static struct gm_fourier *transform_of(const struct gm_view *view, size_t points)
+{
+    struct gm_worked *worked = &view->worked[GM_WORKED_TRANSFORM];
+    if (!worked->data && points > 0) {
+        *worked = (struct gm_worked){gm_fourier_open(points), gm_fourier_close};
+    }
+    return points > 0 ? worked->data : NULL;
+}
+
 static struct gm_curve_action loop_at(const struct gm_view *view, const double *state)
 {
     const struct gm_user_system *system = &gm_system_scene_of(view)->system;
     const size_t points = points_of(view), m = view->problem->m, pairs = gm_system_motion(system) / 2;
+    struct gm_fourier *fourier = transform_of(view, points);
     struct gm_curve_action loop = {0};
-    bool found = points > 0;
+    bool found = fourier;
     for (size_t k = 0; found && k < pairs; k++) {
-        found = gm_curve_add_action(state + gm_system_component(system, k, 0) * m,
+        found = gm_curve_add_action(fourier, state + gm_system_component(system, k, 0) * m,
                                     state + gm_system_component(system, pairs + k, 0) * m, points, &loop);
     }
     return found ? loop : (struct gm_curve_action){NAN, NAN, NAN, NAN, NAN};
@@ -471,9 +482,10 @@ double gm_ring_area(const struct gm_view *view)
     const size_t points = points_of(view), m = view->problem->m, *disc = gm_system_scene_of(view)->disc;
     /* tighter than of an action: an area is shown unasked, and a scheme that changes it is warned of */
     const double share = 1e-5;
+    struct gm_fourier *fourier = transform_of(view, points);
     struct gm_curve_action loop = {0};
-    const bool found = points > 0 && gm_curve_add_action(view->state + disc[0] * m, view->state + disc[1] * m,
-                                                         points, &loop);
+    const bool found = fourier && gm_curve_add_action(fourier, view->state + disc[0] * m,
+                                                      view->state + disc[1] * m, points, &loop);
     return found ? -resolved(&loop, share) : NAN;
 }
 
