@@ -111,7 +111,8 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 /* Returns true if two lanes have the same levels. */
 static bool have_same_levels(const struct gm_lane *a, const struct gm_lane *b)
 {
-    return gm_lane_view(a).t == gm_lane_view(b).t && is_same(a, b);
+    return gm_lane_view(a).t == gm_lane_view(b).t && is_same(a, b) &&
+           memcmp(a->start, b->start, gm_active_count(&a->problem) * sizeof *a->start) == 0;
 }
 
 /* Adds the closed levels around its start to the range of each lane. */
