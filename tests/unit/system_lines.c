@@ -309,6 +309,48 @@ static void texts_hold_values(void **unused)
     gm_system_scene_close(scene);
 }
 
+/* Asserts that all points of the grey lines of a panel have this distance from the origin. Returns the first line. */
+static const struct gm_mark *circle_of(const struct gm_panel *panel, double radius)
+{
+    const struct gm_mark *first = NULL;
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        const bool grey = mark->kind == GM_MARK_LINE && mark->style.role == GM_EXACT;
+        for (size_t i = 0; grey && i < mark->count; i++) {
+            assert_float_equal(hypot(mark->points[2 * i], mark->points[2 * i + 1]), radius, 0.01);
+        }
+        first = grey && !first ? mark : first;
+    }
+    assert_non_null(first);
+    return first;
+}
+
+/* Levels are traced once for lanes of the same system and start, and each panel shows those of its own lane. */
+static void levels_are_shared_by_equal_lanes(void **unused)
+{
+    (void)unused;
+    const struct gm_scene *scene = scene_of(OSCILLATOR "level: q^2 + p^2 - q(0)^2 - p(0)^2; the circle\n");
+    struct gm_lane *lanes[] = {running(scene, "", "rk4", 2), running(scene, "", "gauss4", 2),
+                               running(scene, "q=2", "rk4", 2)};
+    for (size_t i = 0; i < GM_COUNT(lanes); i++) {
+        lanes[i]->shown.panel = i;
+    }
+    struct gm_picture *picture = picture_of(lanes, GM_COUNT(lanes));
+    const struct gm_panel *panel = picture->first;
+    const struct gm_mark *circle = circle_of(panel, 1);
+    assert_ptr_equal(circle_of(panel->next, 1)->points, circle->points);
+    circle_of(panel->next->next, 2);
+    gm_picture_close(picture);
+    lanes[1]->start[0] = 1.5; /* as after a click into the picture */
+    picture = picture_of(lanes, GM_COUNT(lanes));
+    circle_of(picture->first, 1);
+    circle_of(picture->first->next, 1.5);
+    gm_picture_close(picture);
+    for (size_t i = 0; i < GM_COUNT(lanes); i++) {
+        gm_lane_close(lanes[i]);
+    }
+    gm_system_scene_close(scene);
+}
+
 /* Curves over time have their titles in the picture. */
 static void curves_have_titles(void **unused)
 {
@@ -659,6 +701,7 @@ int main(void)
         cmocka_unit_test(derived_starts_follow),
         cmocka_unit_test(sights_are_live),
         cmocka_unit_test(texts_hold_values),
+        cmocka_unit_test(levels_are_shared_by_equal_lanes),
         cmocka_unit_test(curves_have_titles),
         cmocka_unit_test(levels_are_drawn),
         cmocka_unit_test(graphs_are_those_of_the_file),
