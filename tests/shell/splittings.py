@@ -512,6 +512,7 @@ def sentences_help():
             (("henon-heiles", "scheme=aba864()"), "column 1: aba864() names no parts; a splitting takes those of a system"),
             (system + ("scheme=strang(by rk4, B)",), "column 8: a part is a name, or NAME by SCHEME"),
             (system + ("scheme=strang(A by, B)",), "column 10: a part is a name, or NAME by SCHEME"),
+            (system + ("scheme=strang(A, 5+]+1)",), "column 11: a part is a name, or NAME by SCHEME"),
             (system + ("scheme=strang(A, C)",), "A + C is not H"),
             (system + ("scheme=strang(A by dopri5, B)",), "column 13: dopri5 cannot be a part of a step: it is adaptive"),
             (system + ("scheme=lie(A by projected(rk4; H), B)",), "column 10: projected(rk4; H) cannot be a part of a step"),

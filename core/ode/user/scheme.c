@@ -345,15 +345,15 @@ static void check_part(const struct making *making, const struct gm_scheme *sche
 static struct gm_named_part read_part(const struct making *making, struct gm_span piece)
 {
     const char *text = making->source->text;
-    const size_t name = gm_name_length(text + piece.begin, piece.end - piece.begin),
-                 end = name > 0 ? piece.begin + name : piece.end;
+    const size_t end = piece.begin + gm_name_length(text + piece.begin, piece.end - piece.begin);
     const struct gm_span given = {piece.begin, end},
                          by = gm_span_trimmed(text, (struct gm_span){end, piece.end});
     const bool typed = !making->source->title; /* not in a file */
     struct gm_named_part part = {.name = words_of(making, given), .column = typed ? piece.begin + 1 : 0};
-    const bool before = strcmp(part.name, "by") == 0, written = strncmp(text + by.begin, "by ", 3) == 0;
-    if (before || (by.begin < by.end && !written)) {
-        fail(making, before ? piece.begin : by.begin,
+    const bool nameless = end == piece.begin || strcmp(part.name, "by") == 0,
+               written = strncmp(text + by.begin, "by ", 3) == 0;
+    if (nameless || (by.begin < by.end && !written)) {
+        fail(making, nameless ? piece.begin : by.begin,
              "a part is a name, or NAME by SCHEME, as in A by gauss4");
     }
     if (written && by.begin < by.end) {
