@@ -156,7 +156,7 @@ function show(news) {
     if (news.refused) {
         say(news.refused, true);
     } else {
-        if (canvas.width !== news.picture.width || canvas.height !== news.picture.height) { // the layout is computed anew
+        if (canvas.width !== news.picture.width || canvas.height !== news.picture.height) { // setting it lays out the page anew
             Object.assign(canvas, {width: news.picture.width, height: news.picture.height});
         }
         paper.transferFromImageBitmap(news.picture);
@@ -166,7 +166,7 @@ function show(news) {
     view = news.view;
     playing = news.playing;
     late = news.late;
-    if (playing) { // digits that change with every frame cannot be read, and cost as much as a picture
+    if (playing) { // digits that change with every frame cannot be read
         due ??= setTimeout(showAll, 100);
     } else {
         showAll();
