@@ -254,7 +254,9 @@ static void unwind(struct gm_entries *entries, double t)
     }
 }
 
-static bool is_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+/* Whether an entry of a lane is due at time t. */
+static bool is_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                   double t)
 {
     if (entries->count == 0) {
         return true;
@@ -263,14 +265,14 @@ static bool is_due(struct gm_entries *entries, const struct gm_track *track, con
     const double interval =
         (track->interval ? track->interval(view->parameters) : 0) * (double)entries->every;
     if (!(interval > 0)) {
-        return view->t != last;
+        return t != last;
     }
     if (entries->counted != last || entries->interval != interval) {
         entries->counted = last;
         entries->interval = interval;
         entries->intervals = intervals(view, interval, last);
     }
-    return intervals(view, interval, view->t) != entries->intervals;
+    return intervals(view, interval, t) != entries->intervals;
 }
 
 static void make_room(struct gm_entries *entries, const struct gm_track *track)
@@ -312,22 +314,26 @@ static void follow_section(struct gm_entries *entries, const struct gm_track *tr
 }
 
 /* Returns the first step from step k on at which an entry is due, trace->count + 1 without one: what is due then is
-   due at all later ones. */
+   due at all later ones. Steps are equal but for those of adaptive schemes, so the search begins at the step that the
+   end of the current interval falls into. */
 static int64_t next_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                         const struct gm_trace *trace, int64_t k)
 {
-    int64_t low = k - 1, high = trace->count, stride = 1;
-    if (k > high || !is_due(entries, track, view)) {
+    int64_t low = k - 1, high = trace->count;
+    if (k > high || !is_due(entries, track, view, view->t)) {
         return trace->count + 1;
     }
-    while (high - low > 1) {
-        const int64_t middle = low + stride < high ? low + stride : (low + high) / 2;
-        const struct gm_view there = gm_view_along(view, trace, middle);
-        if (is_due(entries, track, &there)) {
-            high = middle;
+    const double left = entries->interval * (entries->intervals + 1) - fabs(trace->times[low] - view->t0),
+                 steps = left / fabs(trace->times[k] - trace->times[low]);
+    int64_t middle = !(steps > 1) ? k : steps < (double)(high - k) ? low + (int64_t)ceil(steps) : high - 1;
+    for (int tried = 0; high - low > 1; tried++) {
+        if (tried > 1 || middle <= low || middle >= high) {
+            middle = (low + high) / 2;
+        }
+        if (is_due(entries, track, view, trace->times[middle])) {
+            high = middle--;
         } else {
-            low = middle;
-            stride *= 2;
+            low = middle++;
         }
     }
     return high;
@@ -386,7 +392,7 @@ void gm_entries_record(struct gm_entries *entries, const struct gm_track *track,
         record_crossings(entries, track, view, behind);
         return;
     }
-    if (!is_due(entries, track, view)) {
+    if (!is_due(entries, track, view, view->t)) {
         return;
     }
     make_room(entries, track);
