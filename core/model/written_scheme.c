@@ -678,17 +678,20 @@ static void read_order(struct reading *reading)
             order->value.begin, "order: is a whole number from 1 to %d", MOST);
 }
 
-/* A title is a part of the word: its parentheses must match, and it has no semicolon outside of them. */
+/* A title is a part of the word, which is cut at semicolons and ends with its parenthesis: a title has no semicolon, its
+   parentheses match, and its brackets too. */
 static void check_title(const struct reading *reading)
 {
     const struct gm_written_line *title = &reading->scheme->lines[GM_SCHEME_WORD_TITLE];
-    int depth = 0;
-    for (size_t i = title->value.begin; i < title->value.end && depth >= 0; i++) {
+    int round = 0, square = 0;
+    bool whole = true;
+    for (size_t i = title->value.begin; i < title->value.end && whole; i++) {
         const char here = reading->text[i];
-        const int opens = (here == '(' || here == '['), closes = (here == ')' || here == ']');
-        depth = here == ';' ? -1 : depth + opens - closes;
+        round += (here == '(') - (here == ')');
+        square += (here == '[') - (here == ']');
+        whole = here != ';' && round >= 0 && square >= 0;
     }
-    fail_if(reading, depth != 0, title->value.begin,
+    fail_if(reading, !whole || round != 0 || square != 0, title->value.begin,
             "a title has no semicolon, and closes its parentheses and brackets");
 }
 

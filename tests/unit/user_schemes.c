@@ -1069,6 +1069,7 @@ static void refusals(void **unused)
         {"geomint: 2\nkind: runge-kutta\na: 1/2\nb: 1\n", "2\nkind", "later format"},
         {"kind: runge-kutta\na:\nb: 1\n", "\nb: 1", "has no value"},
         {"kind: runge-kutta\na: 1/2\nb: \033[31m1\n", "\033", ""},
+        {"kind: runge-kutta\ntitle: [f(a)) b\na: 1/2\nb: 1\n", "[f(a)) b", "closes its parentheses"},
         {"kind: runge-kutta\ntitle: a; b\na: 1/2\nb: 1\n", "a; b", "no semicolon"},
         {"kind: runge-kutta\ntitle: Kutta]s\na: 1/2\nb: 1\n", "Kutta]s",
          "closes its parentheses and brackets"},
