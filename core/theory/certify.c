@@ -293,7 +293,9 @@ static unsigned refuted_by(const struct gm_theory *theory, bool written)
            (theory->plain ? 0 : GM_KEEPS_QUADRATIC) | (theory->symmetric ? 0 : GM_SYMMETRIC | GM_REVERSIBLE);
 }
 
-static void ask_theory(struct gm_certificate *certificate)
+/* `given`: the measurement is on one given system. What theory proves, that refutes nothing: it takes more derivatives
+   than the system may have, and holds of stiff systems only for steps shorter than their fastest time. */
+static void ask_theory(struct gm_certificate *certificate, bool given)
 {
     const struct gm_scheme *scheme = certificate->scheme;
     const struct gm_theory theory = gm_scheme_theory(scheme);
@@ -308,7 +310,13 @@ static void ask_theory(struct gm_certificate *certificate)
     certificate->theory_holds = proved && certificate->refuted == 0;
     /* a measured order above the theoretical one is special to a problem */
     const int least = theory.order > scheme->order ? theory.order : scheme->order;
-    certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
+    const bool reached = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
+    certificate->order_holds = reached || (given && proved);
+    if (!reached && certificate->order_holds && !certificate->order_reason) {
+        certificate->order_reason =
+            "not reached on this system, which is stiff for these steps or has too few "
+            "derivatives; theory proves the order";
+    }
 }
 
 void gm_certificate_note_same(struct gm_certificate *certificate, const struct gm_problem *problem,
@@ -351,10 +359,10 @@ static struct gm_certificate begin(const struct gm_scheme *scheme)
     return certificate;
 }
 
-static void conclude(struct gm_certificate *certificate)
+static void conclude(struct gm_certificate *certificate, bool given)
 {
     const double rounding = 1e-11;
-    ask_theory(certificate);
+    ask_theory(certificate, given);
     struct gm_sameness *same = &certificate->same;
     same->holds = same->other && same->difference <= rounding;
     certificate->holds = certificate->order_holds && certificate->theory_holds &&
@@ -392,7 +400,7 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
         : fails ? "with every step the run fails before its end: name a system, --on SYSTEM"
                 : certificate.order_reason;
     certificate.order_holds = certificate.order_holds || untried || fails;
-    conclude(&certificate);
+    conclude(&certificate, false);
     return certificate;
 }
 
@@ -401,6 +409,6 @@ struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct
     struct gm_certificate certificate = begin(scheme);
     scheme->family->kind->certify_on(scheme, system, &certificate);
     certificate.same.undecided = true; /* an equation of a long step may have several solutions */
-    conclude(&certificate);
+    conclude(&certificate, true);
     return certificate;
 }

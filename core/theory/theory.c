@@ -266,44 +266,88 @@ static bool is_asked_for(const struct gm_coefficients *coefficients, int side, i
     return taken;
 }
 
-/* The number that each stage has when they are counted by their times, c_i = sum_j a_ij: of a Runge-Kutta method
-   they may be written in any order; of functions that are split the pieces have theirs. */
-static int *order_stages(struct gm_arena *arena, const struct gm_coefficients *coefficients)
+/* Numbers of each stage that do not depend on how the stages are counted: b_i, (b' A)_i, and with c = A 1 the rows of c,
+   A c, A c^2 and A A c; of the method or, `back`, of its adjoint's a_ij = b_j - a_ij. */
+enum { MARKS = 6 };
+
+static void mark_stages(const struct gm_coefficients *coefficients, bool back, double (*marks)[MARKS])
 {
     const int s = coefficients->stages;
-    int *order = gm_arena_take(arena, (size_t)s, sizeof *order);
-    double *times = gm_arena_take(arena, (size_t)s, sizeof *times);
-    for (int i = 0; i < s; i++) {
-        int place = i;
-        for (int j = 0; j < s && coefficients->equations == GM_EQUATIONS_PLAIN; j++) {
-            times[i] += gm_ball_midpoint(at(coefficients, 0, i, j));
+    for (int pass = 0; pass < 3; pass++) {
+        for (int i = 0; i < s; i++) {
+            for (int j = 0; j < s; j++) {
+                const double b = gm_ball_midpoint(coefficients->b[0][j]),
+                             forth = gm_ball_midpoint(at(coefficients, 0, i, j)),
+                             a = back ? b - forth : forth, c = marks[j][2];
+                marks[j][0] = b;
+                if (pass == 0) {
+                    marks[j][1] += gm_ball_midpoint(coefficients->b[0][i]) * a;
+                    marks[i][2] += a;
+                } else if (pass == 1) {
+                    marks[i][3] += a * c;
+                    marks[i][4] += a * c * c;
+                } else {
+                    marks[i][5] += a * marks[j][3];
+                }
+            }
         }
-        for (; place > 0 && times[order[place - 1]] > times[i] + 1e-9; place--) {
-            order[place] = order[place - 1];
-        }
-        order[place] = i;
     }
-    return order;
 }
 
-/* b_(sigma i) = b_i,  a_(sigma i, sigma j) + a_ij = b_j;  sigma i = s + 1 - i, by the times of the stages. */
+static double apart(const double *a, const double *b)
+{
+    double largest = 0;
+    for (int k = 0; k < MARKS; k++) {
+        largest = fmax(largest, fabs(a[k] - b[k]));
+    }
+    return largest;
+}
+
+/* Returns the stage of the method that each stage of its adjoint is, by the numbers nearest to its own: stages of a
+   Runge-Kutta method may be written in any order. Of functions that are split the pieces have theirs, which is
+   reversed. */
+static int *pair_stages(struct gm_arena *arena, const struct gm_coefficients *coefficients)
+{
+    const int s = coefficients->stages;
+    int *pair = gm_arena_take(arena, (size_t)s, sizeof *pair);
+    bool *taken = gm_arena_take(arena, (size_t)s, sizeof *taken);
+    double(*forth)[MARKS] = gm_arena_take(arena, (size_t)s, sizeof *forth),
+    (*back)[MARKS] = gm_arena_take(arena, (size_t)s, sizeof *back);
+    const bool plain = coefficients->equations == GM_EQUATIONS_PLAIN;
+    mark_stages(coefficients, false, forth);
+    mark_stages(coefficients, true, back);
+    for (int i = 0; i < s; i++) {
+        double nearest = INFINITY;
+        for (int j = s - 1; j >= 0 && plain; j--) {
+            const double distance = apart(back[i], forth[j]);
+            if (!taken[j] && distance < nearest) {
+                nearest = distance;
+                pair[i] = j;
+            }
+        }
+        pair[i] = plain ? pair[i] : s - 1 - i;
+        taken[pair[i]] = true;
+    }
+    return pair;
+}
+
+/* b_(sigma i) = b_i,  a_(sigma i, sigma j) + a_ij = b_j */
 static void take_symmetry(const struct gm_coefficients *coefficients, struct residuals *all)
 {
-    const int s = coefficients->stages, *order = order_stages(all->arena, coefficients);
+    const int s = coefficients->stages, *sigma = pair_stages(all->arena, coefficients);
     bool *asked = gm_arena_take(all->arena, (size_t)s, sizeof *asked);
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
         const struct gm_ball *b = coefficients->b[side];
         for (int i = 0; i < s; i++) {
-            asked[i] = is_asked_for(coefficients, side, order[i]);
+            asked[i] = is_asked_for(coefficients, side, i);
         }
         for (int j = 0; j < s; j++) {
-            const int here = order[j], there = order[s - 1 - j];
-            take(all, gm_ball_subtract(b[here], b[there]));
+            take(all, gm_ball_subtract(b[j], b[sigma[j]]));
             for (int i = 0; i < s; i++) {
-                const struct gm_ball sum = gm_ball_add(at(coefficients, side, order[s - 1 - i], there),
-                                                       at(coefficients, side, order[i], here));
+                const struct gm_ball sum =
+                    gm_ball_add(at(coefficients, side, sigma[i], sigma[j]), at(coefficients, side, i, j));
                 if (asked[i]) {
-                    take(all, gm_ball_subtract(sum, b[here]));
+                    take(all, gm_ball_subtract(sum, b[j]));
                 }
             }
         }

@@ -66,7 +66,14 @@ static void print_certificate(const struct gm_certificate *certificate)
     }
     if (theory->known) {
         if (scheme->order > 0 && certificate->order > 1.05 * theory->order) {
-            printf("  what is measured above the order by theory is special to that problem\n");
+            if (fabs(theory->residual) < 1e-4) {
+                printf(
+                    "  the condition that fails by theory is missed by %.1e: too little to be seen in these "
+                    "steps\n",
+                    fabs(theory->residual));
+            } else {
+                printf("  what is measured above the order by theory is special to that problem\n");
+            }
         }
         printf("  by theory%s:\n", certificate->theory_holds ? "" : "  BROKEN");
         gm_theory_print(theory, "    ");

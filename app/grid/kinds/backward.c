@@ -242,7 +242,7 @@ static void print(const struct gm_grid *grid)
     }
     printf(
         "\ngamma: term k is about k! (dt/gamma)^k, estimated from the last two; it is smallest at k = gamma/dt, and "
-        "what\nis left drifts by exp(-gamma / 2 dt) in the time exp(gamma / 2 dt)\n");
+        "what\nis left drifts by at most exp(-gamma / 2 dt) in the time exp(gamma / 2 dt)\n");
 }
 
 static void put_front(struct gm_row *row, const struct gm_grid *grid, const struct gm_grid_line *line)

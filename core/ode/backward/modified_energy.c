@@ -12,6 +12,7 @@
 #include "core/expression/derivative.h"
 #include "core/kind.h"
 #include "core/ode/ode.h"
+#include "core/schemes.h"
 #include "core/tape.h"
 #include "core/theory/modified.h"
 #include "core/theory/theory.h"
@@ -128,8 +129,10 @@ static void open_terms(struct opening *opening)
     struct gm_modified_energy *energy = opening->energy;
     struct gm_arena *arena = energy->arena;
     const char *title = opening->scheme->title;
+    /* another scheme may make the same steps on this problem by coefficients whose conditions are fulfilled */
+    const struct gm_scheme *same = gm_scheme_same_as(opening->scheme, opening->problem);
     struct gm_coefficients coefficients;
-    if (!gm_scheme_coefficients_open(arena, opening->scheme, &coefficients)) {
+    if (!gm_scheme_coefficients_open(arena, same ? same : opening->scheme, &coefficients)) {
         gm_arena_refuse(
             arena,
             "the modified equation of %.80s is unknown: it is not a Runge-Kutta method, a splitting into T and V, or a "
@@ -138,8 +141,8 @@ static void open_terms(struct opening *opening)
     }
     gm_coefficients_reduce(&coefficients);
     if (!gm_theory_is_symplectic(arena, &coefficients)) {
-        gm_arena_refuse(arena, "%.80s is not symplectic: the equation that it solves has no Hamiltonian",
-                        title);
+        gm_arena_refuse(
+            arena, "%.80s is not symplectic: no Hamiltonian of the equation that it solves is known", title);
     }
     gm_arena_check(arena, coefficients.nystrom == 0, "the modified equation of a Nystrom method is unknown");
     energy->modified = gm_modified_of(arena, &coefficients, energy->power + 1);

@@ -616,9 +616,12 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
     }
     if (gm_action_constraints(system->problem) > 0 && !(scheme->needs & GM_NEEDS_CONSTRAINTS)) {
-        /* the motion is Hamiltonian where the constraints hold, and this scheme leaves that place */
-        gm_certificate_claim(certificate, GM_SYMPLECTIC)->claimed = false;
-        gm_certificate_claim(certificate, GM_KEEPS_QUADRATIC)->claimed = false;
+        /* the motion is Hamiltonian, and has its invariants, where the constraints hold: this scheme leaves that place */
+        static const enum gm_claim of_the_manifold[] = {GM_SYMPLECTIC, GM_KEEPS_QUADRATIC, GM_KEEPS_BILINEAR,
+                                                        GM_KEEPS_MOMENTUM_MAPS};
+        for (size_t i = 0; i < GM_COUNT(of_the_manifold); i++) {
+            gm_certificate_claim(certificate, of_the_manifold[i])->claimed = false;
+        }
     }
     double *start = start_before_event(&subject, &subject.passed);
     subject.away = start && !isnan(subject.passed) ? start + subject.problem.n : NULL;
