@@ -110,7 +110,8 @@ static double differences_of(const struct gm_kept *kept, const double *start, si
     return size > 0 ? fabs(sum) / size : 0;
 }
 
-unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied, double size)
+unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied, double size,
+                        const double *sizes)
 {
     enum { DIRECTIONS = 4 };
     const double none = 1e-11;
@@ -119,7 +120,7 @@ unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t 
     bool varies = false, linear = true, quadratic = true, bilinear = true, of_momenta = true;
     for (int k = 1; all && k <= DIRECTIONS; k++) {
         for (size_t c = 0; c < varied; c++) {
-            all[c] = size * gm_sin(k * (double)(3 * c + 1)); /* any direction */
+            all[c] = (sizes ? sizes[c] : size) * gm_sin(k * (double)(3 * c + 1)); /* any direction */
             *(c < half ? &q[c] : &p[c]) = all[c];
         }
         varies = varies || !(differences_of(kept, start, n, 1, all) < none);

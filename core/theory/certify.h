@@ -106,10 +106,10 @@ double gm_invariant_value(const void *invariant, const double *y, const double *
 
 /* Returns the claims that a conserved quantity tests, as bits: it may be linear, quadratic, of the form q'
    A p, or of the form p' x(q) with x affine, the momentum map of the symmetry whose generator is x
-   (Noether's theorem, read backwards). Differences along directions of this size decide, in the first
-   `varied` of n numbers. 0: none, or out of memory. */
-unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied,
-                        double size);
+   (Noether's theorem, read backwards). Differences along directions of this size, or with `sizes` of one for each number,
+   decide, in the first `varied` of n numbers. 0: none, or out of memory. */
+unsigned gm_kept_claims(const struct gm_kept *kept, const double *start, size_t n, size_t varied, double size,
+                        const double *sizes);
 
 /* A system on which a scheme is measured that fits it: defects of one step dt from the start, and the order
    by steps from 8 dt on. */

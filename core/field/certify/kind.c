@@ -725,7 +725,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         }
         for (size_t i = 0; i < system->kept_count; i++) {
             /* along directions that a scheme's own last number takes no part in */
-            const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size);
+            const unsigned claims = gm_kept_claims(&system->kept[i], y, n, n - levels, size, NULL);
             if (claims & (GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC)) {
                 note_change(certificate, claims & GM_KEEPS_LINEAR ? GM_KEEPS_LINEAR : GM_KEEPS_QUADRATIC,
                             &subject, y, &system->kept[i], system->kept[i].name);

@@ -21,7 +21,7 @@ enum {
 };
 
 /* The derivative of one step at the start, and the derivative of its initial state: the identity, or under
-   constraints that of the nearest state on the manifold. */
+   constraints that of the nearest state on the manifold; of components in units of their sizes. */
 struct derivative {
     const struct gm_subject *subject;
     double dt;
@@ -50,14 +50,15 @@ static bool differentiate(const struct gm_subject *subject, double dt, double le
     derivative->dt = dt;
     derivative->largest = 0;
     for (size_t column = 0; column < n; column++) {
-        along[column] = length;
+        along[column] = length * gm_subject_size(subject, column);
         if (!gm_differentiate(&(const struct gm_map){make_step, derivative, n, 2 * n}, from, along, slope)) {
             return false;
         }
         along[column] = 0;
         for (size_t row = 0; row < n; row++) {
-            derivative->start[row][column] = slope[row] / length;
-            derivative->at[row][column] = slope[n + row] / length;
+            const double size = length * gm_subject_size(subject, row);
+            derivative->start[row][column] = slope[row] / size;
+            derivative->at[row][column] = slope[n + row] / size;
             derivative->largest = gm_larger(fabs(derivative->at[row][column]), derivative->largest);
         }
     }
@@ -92,8 +93,7 @@ static struct defect of_derivative(const struct gm_subject *subject, double dt, 
     const size_t n = gm_subject_components(subject);
     struct derivative derivative, closer;
     struct defect found = {.size = NAN};
-    for (double length = 0.4 * subject->scale;
-         length > 2e-3 * subject->scale && !found.clear && !(found.size <= tolerance / 10); length /= 4) {
+    for (double length = 0.4; length > 2e-3 && !found.clear && !(found.size <= tolerance / 10); length /= 4) {
         if (!differentiate(subject, dt, length, &derivative)) {
             continue;
         }
@@ -172,6 +172,12 @@ static double carried_defect(const struct derivative *derivative, bool form,
     }
     find(&subject->problem, form ? end : start, from);
     find(&subject->problem, form ? start : end, to);
+    for (size_t i = 0; i < n * n; i++) { /* in units of the components' sizes, too */
+        const double row = gm_subject_size(subject, i / n) / subject->scale,
+                     column = gm_subject_size(subject, i % n) / subject->scale;
+        from[i] = form ? from[i] * row * column : from[i] / (row * column);
+        to[i] = form ? to[i] * row * column : to[i] / (row * column);
+    }
     for (size_t row = 0; row < n; row++) {
         for (size_t column = 0; column < n; column++) {
             double carried = 0;
@@ -228,22 +234,31 @@ static double determinant_defect(const struct derivative *derivative)
     return fabs(determinant - 1);
 }
 
+/* The largest difference of two states, in units of the components' sizes. */
+static double distance(const struct gm_subject *subject, const double *a, const double *b)
+{
+    double largest = 0;
+    for (size_t c = 0; c < gm_subject_components(subject); c++) {
+        largest = fmax(largest, fabs(a[c] - b[c]) / gm_subject_size(subject, c));
+    }
+    return largest;
+}
+
 /* Returns the distance of a reversed run's end from its start. An adaptive scheme makes 3 steps, so that its
    control has acted. */
 static struct defect of_way_back(const struct gm_subject *subject, double dt, bool reflected)
 {
     const int64_t steps = subject->scheme->family->adaptive ? 3 : 1;
-    const size_t n = gm_subject_components(subject);
-    const double push = 1e-12 * subject->scale;
+    const double push = 1e-12 * gm_subject_size(subject, 0);
     double start[MOST], back[MOST], pushed[MOST];
     gm_subject_start(subject, start);
     if (!gm_subject_turn(subject, dt, steps, reflected, 0, back)) {
         return (struct defect){.size = NAN};
     }
-    const double size = gm_distance(back, start, n) / subject->scale;
+    const double size = distance(subject, back, start);
     /* the size must exceed round-off times its growth on the return */
     const bool told = gm_subject_turn(subject, dt, steps, reflected, push, pushed);
-    return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
+    return (struct defect){size, told && size > 1e-2 * distance(subject, pushed, back)};
 }
 
 /* Claims about the derivative of a step: the defect of each is a polynomial of this degree in its entries; 0: the number
@@ -311,26 +326,47 @@ static bool go_on(const struct gm_subject *subject, double *end)
            (adaptive && memcmp(whole, end, gm_subject_components(subject) * sizeof *end) != 0);
 }
 
-static double change_of(const struct gm_kept *kept, const double *from, const double *to)
+/* The change of a quantity with a displacement of the start by this part of its components' sizes. */
+static double change_by(const struct gm_subject *subject, const struct gm_kept *kept, double part,
+                        int direction)
 {
-    const double before = kept->value(kept->data, from, NULL), after = kept->value(kept->data, to, NULL);
-    return fabs(after - before) / fmax(1, fabs(before));
+    double near[MOST];
+    for (size_t c = 0; c < subject->problem.n; c++) {
+        near[c] =
+            subject->start[c] + part * gm_subject_size(subject, c) * gm_sin(direction * (double)(3 * c + 1));
+    }
+    return fabs(kept->value(kept->data, near, NULL) - kept->value(kept->data, subject->start, NULL));
+}
+
+double gm_kept_unit(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    enum { DIRECTIONS = 4 };
+    const double part = 1e-3, other = 1e4;
+    double terms = 0;
+    for (int k = 1; k <= DIRECTIONS; k++) {
+        terms = fmax(terms, change_by(subject, kept, part, k) / part);
+    }
+    return terms > 0 && isfinite(terms) && (terms < 1 / other || terms > other) ? terms : 1;
+}
+
+double gm_kept_size(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    return fmax(gm_kept_unit(subject, kept), fabs(kept->value(kept->data, subject->start, NULL)));
 }
 
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept)
 {
     double end[MOST];
     const struct gm_subject between = gm_subject_between_events(subject);
-    return go_on(&between, end) ? change_of(kept, subject->start, end) : NAN;
+    return go_on(&between, end)
+               ? fabs(kept->value(kept->data, end, NULL) - kept->value(kept->data, subject->start, NULL)) /
+                     gm_kept_size(subject, kept)
+               : NAN;
 }
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
 {
-    double near[MOST];
-    for (size_t c = 0; c < subject->problem.n; c++) {
-        near[c] = subject->start[c] + 100 * DBL_EPSILON * subject->scale * gm_sin((double)(3 * c + 1));
-    }
-    return change_of(kept, subject->start, near);
+    return change_by(subject, kept, 100 * DBL_EPSILON, 1);
 }
 
 static double energy_drift(const struct gm_subject *subject)

@@ -136,7 +136,7 @@ static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *k
     double *matrix = poisson ? malloc(n * n * sizeof *matrix) : NULL;
     memcpy(y, subject->start, n * sizeof *y);
     for (size_t c = 0; matrix && c < n; c++) {
-        const double h = 1e-5 * subject->scale;
+        const double h = 1e-5 * gm_subject_size(subject, c);
         y[c] = subject->start[c] + h;
         const double above = kept->value(kept->data, y, NULL);
         y[c] = subject->start[c] - h;
@@ -164,7 +164,7 @@ static bool is_even(const struct gm_subject *subject)
     double y[GM_SUBJECT_COMPONENTS], turned[GM_SUBJECT_COMPONENTS];
     for (int k = 1; k <= 4; k++) {
         for (size_t c = 0; c < subject->problem.n; c++) {
-            y[c] = subject->start[c] + 0.1 * subject->scale * gm_sin(k * (double)(3 * c + 1));
+            y[c] = subject->start[c] + 0.1 * gm_subject_size(subject, c) * gm_sin(k * (double)(3 * c + 1));
             turned[c] = c < subject->problem.n / 2 ? y[c] : -y[c];
         }
         const double there = gm_energy(&subject->problem, y), back = gm_energy(&subject->problem, turned);
@@ -198,7 +198,7 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
     if (subject->problem.line.points > 0 && !is_kept_on_the_grid(subject, kept)) {
         return 0;
     }
-    return gm_kept_claims(kept, subject->start, n, n, subject->scale) |
+    return gm_kept_claims(kept, subject->start, n, n, subject->scale, subject->sizes) |
            (is_casimir(subject, kept) ? GM_KEEPS_CASIMIRS : 0);
 }
 
@@ -218,7 +218,7 @@ static void measure_kept(struct gm_certificate *certificate, const struct gm_sub
         if (changes && gm_ode_of(&subject->problem)->rough && isnan(subject->passed)) {
             /* the quantity may differ across a corner of the field */
             gm_certificate_undecided(certificate, claim, name);
-        } else if (changes && drift < gm_round_off_of(subject, kept)) {
+        } else if (changes && drift < gm_round_off_of(subject, kept) / gm_kept_size(subject, kept)) {
             gm_certificate_withhold(certificate, claim,
                                     "round-off hides it: it is small beside the numbers that it is made of");
         } else {
@@ -356,19 +356,16 @@ static bool drifts(const struct quarter *first, const struct quarter *last, doub
     return rests || left || largest(last) > 2 * largest(first);
 }
 
-/* The change of an invariant by one rounding of its components, relative to its value at the start: the larger one of
-   the start and of the end, as components may grow, such as angles that turn. */
+/* The change of an invariant by one rounding of its components: the larger one of the start and of the end, as
+   components may grow, such as angles that turn. */
 static double rounding_of(const struct gm_subject *subject, const struct gm_kept *kept, const double *end)
 {
-    const double x0 = fabs(kept->value(kept->data, subject->start, NULL)),
-                 x1 = fabs(kept->value(kept->data, end, NULL)), whole = x0 > 0 ? x0 : 1;
     struct gm_subject last = *subject;
     last.start = end;
     for (size_t c = 0; c < last.problem.n; c++) {
         last.scale = fmax(last.scale, fabs(end[c]));
     }
-    return fmax(gm_round_off_of(subject, kept) * fmax(1, x0), gm_round_off_of(&last, kept) * fmax(1, x1)) /
-           (100 * whole);
+    return fmax(gm_round_off_of(subject, kept), gm_round_off_of(&last, kept)) / 100;
 }
 
 /* Judges claims by an invariant that was followed: a change beyond ten roundings of each step refutes them, and what
@@ -411,7 +408,7 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
 {
     enum { QUARTERS = 4, LOOKS = 100, STEPS = 10 };
     const double round_off = 1e-12, x0 = kept->value(kept->data, subject->start, NULL);
-    const double scale = fabs(x0) > round_off ? fabs(x0) : 1;
+    const double unit = gm_kept_unit(subject, kept), scale = fabs(x0) > round_off * unit ? fabs(x0) : unit;
     const char *end = strstr(name, "_error");
     const struct gm_settings settings = gm_subject_settings(subject->dt);
     struct quarter quarters[QUARTERS];
@@ -439,7 +436,7 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     row->defect = fmax(-low, high) / scale;
     row->steps = run->steps;
     row->status = run->status;
-    const double rounding = rounding_of(subject, kept, gm_run_state(run));
+    const double rounding = rounding_of(subject, kept, gm_run_state(run)) / scale;
     if (look < QUARTERS * LOOKS) {
         row->verdict = "not measured";
     } else if (row->defect <= fmax(round_off, (double)row->steps * rounding)) {
@@ -595,6 +592,40 @@ static bool loses_energy(const struct gm_scheme *scheme)
     return same && first && gm_scheme_has_coefficients(first->scheme);
 }
 
+/* Returns the size of each component, the larger one of its start and of its change in a step; of q and of p one size,
+   that of the largest, so that dq dp has one unit. The caller frees; NULL: none differs from the scale by more than a
+   factor that a change of the start may have, or out of memory. */
+static double *sizes_of(const struct gm_subject *subject)
+{
+    const double other = 1e4;
+    const size_t n = subject->problem.n;
+    const bool halves = gm_ode_of(&subject->problem)->hamiltonian && n % 2 == 0;
+    double *sizes = malloc(2 * n * sizeof *sizes), *rate = sizes + n;
+    bool differ = false;
+    if (!sizes) {
+        return NULL;
+    }
+    gm_field(&subject->problem, subject->start, rate, 1);
+    for (size_t c = 0; c < n; c++) {
+        sizes[c] = fmax(fabs(subject->start[c]), fabs(subject->dt * rate[c]));
+    }
+    for (size_t c = 1; halves && c < n; c++) {
+        const size_t first = c < n / 2 ? 0 : n / 2;
+        sizes[first] = fmax(sizes[first], sizes[c]);
+    }
+    for (size_t c = 0; c < n; c++) {
+        sizes[c] = halves ? sizes[c < n / 2 ? 0 : n / 2] : sizes[c];
+        const bool own = sizes[c] > 0 && isfinite(sizes[c]) &&
+                         (sizes[c] < subject->scale / other || sizes[c] > subject->scale * other);
+        sizes[c] = own ? sizes[c] : subject->scale;
+        differ = differ || own;
+    }
+    if (!differ) {
+        free(sizes);
+    }
+    return differ ? sizes : NULL;
+}
+
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
                        struct gm_certificate *certificate)
 {
@@ -610,6 +641,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         subject.scale = fmax(subject.scale, fabs(system->start[c]));
     }
     subject.scale = subject.scale > 0 ? subject.scale : 1;
+    double *sizes = sizes_of(&subject);
+    subject.sizes = sizes;
     const struct gm_degenerate *degenerate = gm_ode_of(system->problem)->degenerate;
     if (degenerate && !(degenerate->half_gauge && (scheme->needs & GM_NEEDS_DEGENERATE))) {
         /* of other schemes the claim is about canonical coordinates, and of this one about half of theta */
@@ -660,6 +693,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         doubt(certificate, &subject);
     }
     free(start);
+    free(sizes);
 }
 
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)

@@ -20,6 +20,7 @@ struct gm_subject {
     double passed;              /* a stretch that passes each located break twice; NaN or 0: none is known */
     double unit;                /* unit of the times at which the order is measured */
     double scale;               /* size of the components */
+    const double *sizes;        /* of each, where some are in other units than others; NULL: the scale */
     bool volume;                /* preservation of volume is measured: no energy, no bracket */
     const struct gm_kept *kept; /* invariants beside the energy; a NULL name is the problem's */
     size_t kept_count;
@@ -37,6 +38,12 @@ void gm_subject_close(struct gm_subject *subject);
 size_t gm_subject_components(const struct gm_subject *subject);
 /* Writes the start of the components that a scheme maps. */
 void gm_subject_start(const struct gm_subject *subject, double *whole);
+
+/* Returns the size of one of the components that a scheme maps. */
+static inline double gm_subject_size(const struct gm_subject *subject, size_t component)
+{
+    return subject->sizes ? subject->sizes[component % subject->problem.n] : subject->scale;
+}
 
 /* Returns the subject without events that change its state. */
 static inline struct gm_subject gm_subject_between_events(const struct gm_subject *subject)
@@ -70,6 +77,7 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
 /* Returns the defect of a claim; NaN if a step fails, or if a defect beyond the tolerance does not exceed the
    error of its measurement, for this dt and two smaller ones. M is the derivative of one step, by differences
    (core/linear/differences.h).
+   Components in different units, 10^4 times as large as others or more, are measured in their sizes.
        GM_SYMPLECTIC         |M' J M - J|, under constraints for tangents of their manifold only; of a degenerate
                              Lagrangian |M' Omega(y1) M - Omega(y0)|
        GM_CONFORMAL          |M' J M - exp(-c dt) J|
@@ -84,8 +92,12 @@ double gm_defect(const struct gm_subject *subject, enum gm_claim claim, double t
 /* Returns the relative change of a quantity over many smaller steps; NaN if they fail, and of an adaptive scheme if
    none is made. */
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept);
-/* Returns a quantity's change by a hundred times the round-off of the start's largest number, in some
-   direction. */
+/* Returns the unit of a quantity: 1, or the size of its terms where that is far from 1; with those sizes |value| at the
+   start may be far below it, if terms cancel there. */
+double gm_kept_unit(const struct gm_subject *subject, const struct gm_kept *kept);
+/* Returns what changes of a quantity are relative to: its value at the start, or its unit if that is larger. */
+double gm_kept_size(const struct gm_subject *subject, const struct gm_kept *kept);
+/* Returns a quantity's change by a hundred times the round-off of the components' sizes, in some direction. */
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept);
 
 #endif
