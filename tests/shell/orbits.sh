@@ -146,6 +146,18 @@ holds 'near(d["multipliers"][3][0], .00350381, 3e-7) and all(near(complex(*m), 1
 # a circle in a field of force has the period 2 pi; its multipliers are 1, three of them by the two invariants
 status 0 orbit kepler --json
 holds 'near(d["period"], 2 * math.pi, 1e-9) and d["by_structure"] >= 2 and all(near(complex(*m), 1, 1e-4) for m in d["multipliers"])'
+# an invariant whose gradient vanishes on the orbit, or depends on that of the energy, gives no multiplier 1: the second
+# degree of freedom is unstable
+printf 'coordinates: a b\nH: p_a^2/2 + a^2/2 + a^4/4 + p_b^2/2 - 0.01*b^2\ninvariant: Ea = p_a^2/2 + a^2/2 + a^4/4\ninvariant: Eb = p_b^2/2 - 0.01*b^2; scale 1\nstart: a = 1, b = 0, p_a = 0, p_b = 0\ndt: 0.05\n' >apart.system
+status 0 orbit ./apart.system --json
+holds 'd["by_structure"] == 2 and d["stability"] == "hyperbolic" and near(d["multipliers"][0][0], math.exp(math.sqrt(.02)*d["period"]), 1e-8)'
+# four invariants in involution of a figure eight leave two elliptic pairs, of the rotation numbers that Simo gives
+status 0 orbit figure-eight --json
+holds 'd["by_structure"] == 8 and d["stability"] == "elliptic"'
+holds 'any(near(complex(*m), complex(math.cos(2*math.pi*.00842272), math.sin(2*math.pi*.00842272)), 1e-6) for m in d["multipliers"])'
+status 0 orbit figure-eight
+grep -q '0\.9985999[0-9]* ± 0\.052896' out || fail "the pair beside the ones: $(cat out)"
+status 0 orbit kepler --json
 # a root of order four, which rounding splits: digits below its error are not printed
 holds 'd["stability"] == "parabolic"'
 status 0 orbit kepler

@@ -162,15 +162,106 @@ static void choose_period(struct work *work, struct gm_problem *problem)
     check_period(work);
 }
 
+/* The value of an invariant in a state near the start. */
+static double invariant_at(const struct gm_lane *lane, const struct gm_observable *row, const double *y)
+{
+    struct gm_view view = gm_lane_view(lane);
+    view.state = y;
+    view.observable = row;
+    return row->evaluate(&view);
+}
+
+/* Writes the gradient of an invariant at the start, of length 1, or 0 where it vanishes: where the invariant differs from
+   its value at the start by less than a millionth of what it differs farther away. */
+static void find_gradient(const struct work *work, const struct gm_observable *row, double *gradient)
+{
+    const double *start = work->orbit.start;
+    const size_t n = work->orbit.problem->n;
+    double *y = gm_arena_take(work->options->arena, n, sizeof *y), size = 0, square = 0, away = 0;
+    memcpy(y, start, n * sizeof *y);
+    for (size_t c = 0; c < n; c++) {
+        size = fmax(size, fabs(start[c]));
+    }
+    size = size > 0 ? size : 1;
+    for (size_t c = 0; c < n; c++) {
+        const double h = 1e-4 * size;
+        y[c] = start[c] + h;
+        const double above = invariant_at(work->lane, row, y);
+        y[c] = start[c] - h;
+        gradient[c] = (above - invariant_at(work->lane, row, y)) / 2e-4;
+        y[c] = start[c] + size / 4;
+        away = fmax(away, fabs(invariant_at(work->lane, row, y) - invariant_at(work->lane, row, start)));
+        y[c] = start[c];
+        square += gradient[c] * gradient[c];
+    }
+    for (size_t c = 0; c < n; c++) {
+        gradient[c] = sqrt(square) > 1e-6 * away ? gradient[c] / sqrt(square) : 0;
+    }
+}
+
+/* The rank of `count` rows of n numbers of at most length 1, which it makes orthogonal. */
+static size_t rank_of(double *rows, size_t count, size_t n)
+{
+    size_t rank = 0;
+    for (size_t i = 0; i < count; i++) {
+        double *row = rows + i * n;
+        double square = 0;
+        for (size_t k = 0; k < rank; k++) {
+            double along = 0;
+            for (size_t c = 0; c < n; c++) {
+                along += row[c] * rows[k * n + c];
+            }
+            for (size_t c = 0; c < n; c++) {
+                row[c] -= along * rows[k * n + c];
+            }
+        }
+        for (size_t c = 0; c < n; c++) {
+            square += row[c] * row[c];
+        }
+        for (size_t c = 0; c < n && square > 1e-10; c++) {
+            rows[rank * n + c] = row[c] / sqrt(square);
+        }
+        rank += square > 1e-10;
+    }
+    return rank;
+}
+
+/* The multipliers that are 1 by the structure of a flow: one of its direction, and one of each independent invariant. Of a
+   Hamiltonian flow, whose energy is among them, each invariant also has a flow that keeps the others with which it is in
+   involution, so that k invariants whose brackets have rank r give 2 k - r. Invariants whose gradients vanish on the
+   orbit, or depend on those of others, give nothing. K. R. Meyer, G. R. Hall & D. Offin, Introduction to Hamiltonian
+   Dynamical Systems (2009), chapter 9. */
 static size_t structure_of(const struct work *work)
 {
     const struct gm_scene *scene = work->lane->scene;
-    size_t count = work->orbit.free;
+    const struct gm_periodic *orbit = &work->orbit;
+    const size_t n = orbit->problem->n, half = n / 2;
+    const bool hamiltonian = orbit->problem->kind->facets(orbit->problem) & GM_NEEDS_ENERGY && n % 2 == 0;
     const struct gm_events *events = work->lane->problem.events; /* they may change the energy */
-    for (size_t i = 0; i < scene->observable_count && work->orbit.free && !(events && events->changes); i++) {
-        count += scene->observables[i].error && scene->observables[i].kept;
+    struct gm_arena *arena = work->options->arena;
+    double *gradients = gm_arena_take(arena, scene->observable_count * n, sizeof *gradients);
+    size_t count = 0;
+    if (!orbit->free) {
+        return 0;
     }
-    return count < work->lane->problem.n ? count : work->lane->problem.n;
+    for (size_t i = 0; i < scene->observable_count && !(events && events->changes); i++) {
+        if (scene->observables[i].error && scene->observables[i].kept) {
+            find_gradient(work, &scene->observables[i], gradients + count++ * n);
+        }
+    }
+    const size_t rank = rank_of(gradients, count, n);
+    if (!hamiltonian || rank == 0) {
+        return 1 + rank < n ? 1 + rank : n;
+    }
+    double *brackets = gm_arena_take(arena, rank * rank, sizeof *brackets);
+    for (size_t i = 0; i < rank * rank; i++) {
+        const double *f = gradients + i / rank * n, *g = gradients + i % rank * n;
+        for (size_t c = 0; c < half; c++) {
+            brackets[i] += f[c] * g[half + c] - f[half + c] * g[c];
+        }
+    }
+    const size_t all = 2 * rank - rank_of(brackets, rank, rank);
+    return all < n ? all : n;
 }
 
 static void open_work(struct work *work, struct gm_problem *problem)

@@ -516,14 +516,23 @@ static size_t nearer_than(const struct gm_periodic *orbit, size_t i)
     return nearer;
 }
 
-/* The number of multipliers that cannot be distinguished from a root 1 of this order. */
+/* The error of `ones` multipliers 1. A root of order k moves by the k-th root of an error; those of the structure come in
+   pairs, f and an invariant, whose blocks have two rows. */
+static double error_of_ones(const struct gm_periodic *orbit, size_t ones)
+{
+    const size_t others = ones > orbit->by_structure ? ones - orbit->by_structure : 0,
+                 order = ones < 2 + others ? ones : 2 + others;
+    return gm_pow(orbit->error, 1 / (double)order);
+}
+
+/* The number of multipliers that cannot be distinguished from 1. */
 static size_t count_ones(const struct gm_periodic *orbit)
 {
     const double *re = orbit->multipliers, *im = re + orbit->count;
     size_t ones = 0;
     for (size_t i = 0; i < orbit->count; i++) {
         const size_t order = nearer_than(orbit, i) + 1;
-        const bool close = gm_hypot(re[i] - 1, im[i]) <= gm_pow(orbit->error, 1 / (double)order);
+        const bool close = gm_hypot(re[i] - 1, im[i]) <= error_of_ones(orbit, order);
         ones = close && order > ones ? order : ones;
     }
     return ones;
@@ -532,7 +541,7 @@ static size_t count_ones(const struct gm_periodic *orbit)
 double gm_multiplier_error(const struct gm_periodic *orbit, size_t i)
 {
     const size_t ones = count_ones(orbit);
-    return nearer_than(orbit, i) < ones ? gm_pow(orbit->error, 1 / (double)ones) : orbit->error;
+    return nearer_than(orbit, i) < ones ? error_of_ones(orbit, ones) : orbit->error;
 }
 
 const char *gm_periodic_kind(const struct gm_periodic *orbit)

@@ -63,8 +63,8 @@ bool gm_periodic_find(struct gm_periodic *orbit);
    "unstable" or "parabolic", by the multipliers beside those of the structure. */
 const char *gm_periodic_kind(const struct gm_periodic *orbit);
 
-/* The error of multiplier i. Of k that are close to 1, which may be a root of order k, it is the k-th root of that of
-   one. */
+/* The error of multiplier i. Of k that are close to 1 beside those of the structure, which may be a root of order k + 2, it
+   is that root of the error of one. */
 double gm_multiplier_error(const struct gm_periodic *orbit, size_t i);
 
 #endif
