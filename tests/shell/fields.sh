@@ -98,6 +98,9 @@ grep -q 'L conserves linear invariants *holds' out || fail "heat between walls, 
 printf 'geomint: 1\nkind: runge-kutta\norder: 1\nclaims: symmetric\na: 0\nb: 1\n' >false.scheme
 status 4 certify false.scheme --on own.system
 grep -q '= symmetric *BROKEN' out || fail "Euler's method as a symmetric one, on a field: $(cat out)"
+# stages of equal times in any order: midpoint steps of 1/4, 1/2, -5/4, 2, -5/4, 1/2, 1/4, the first three listed last first
+status 0 certify 'runge-kutta(-5/8,1/4,1/2,0,0,0,0|0,1/8,0,0,0,0,0|0,1/4,1/4,0,0,0,0|-5/4,1/4,1/2,1,0,0,0|-5/4,1/4,1/2,2,-5/8,0,0|-5/4,1/4,1/2,2,-5/4,1/4,0|-5/4,1/4,1/2,2,-5/4,1/2,1/8; -5/4,1/4,1/2,2,-5/4,1/2,1/4; order: 2; claims: symplectic symmetric reversible)'
+grep -q '= symmetric  *holds' out || fail "a symmetric composition in another order: $(cat out)"
 # numbers that are large beside others stop no reference, and refute nothing
 printf 'field: u\nrate: u = -u_x - u_xxx\nspace: fourier\nstart: u = 1e6*exp(-x^2)\nhalf_length: 10\npoints: 64\n' >large.system
 printf 'dt: 0.01\nuntil: 1\n' >>large.system
@@ -105,7 +108,25 @@ status 0 certify midpoint --on large.system
 printf 'coordinates: q\nH: p_q^2/2 + (q - 1e6)^2/2\nstart: q = 1000001, p_q = 0\ndt: 0.1\nuntil: 1\n' >shifted.system
 status 0 certify midpoint --on shifted.system
 grep -q 'conserves quadratic invariants  *not measured round-off' out || fail "an energy small beside q: $(cat out)"
-rm own.system false.scheme large.system shifted.system
+# metres and kilograms: the momenta are 10^18 times as large as the places, and the area of a step has one unit
+printf 'coordinates: q\nH: p_q^2/2/6e24 + 6e24*(2e-7*q)^2/2\nstart: q = 1.5e11, p_q = 0\ndt: 5e5\n' >metres.system
+status 0 certify verlet --on metres.system
+grep -q 'S symplectic  *holds' out || fail "Verlet in metres: $(cat out)"
+status 0 certify explicit-euler --on metres.system
+grep -q 'S symplectic  *not claimed  *defect 1.0e-02' out || fail "Euler's areas in metres: $(cat out)"
+grep -q 'steps H  *drifts' out || fail "Euler's energy in metres: $(cat out)"
+# an energy that is 0 but for rounding, and one of small numbers: the changes are those of its terms
+status 0 certify explicit-euler --on system 'H=(p1^2+p2^2)/2-1/sqrt(q1^2+q2^2)' q1=1 q2=0 p1=0 'p2=sqrt(2)' dt=0.1
+grep -q 'steps H  *drifts  *change 8.4e-02' out || fail "an energy of 0: $(cat out)"
+status 4 certify 'strang(A by rk4, B by rk4; order: 2; claims: keeps energy)' --on system 'H=p^2/2+q^2/2' \
+    'part=A = p^2/2+q^2/4 , B = q^2/4' q=1e-7 p=0 dt=0.5
+grep -q 'H conserves energy  *BROKEN  *defect 2.7e-02' out || fail "an energy of small numbers: $(cat out)"
+# an order that theory proves is not refuted by a system that is stiff for the steps
+status 0 certify radau5 --on system 'rate=x = -1e4*(x^3 - cos(t)^3) - sin(t)' x=1 dt=0.05
+grep -q 'measured 2.9.*not reached on this system' out || fail "an order on a stiff system: $(cat out)"
+status 4 certify 'runge-kutta(0,0|1,0; 1/2,1/2; order: 3)' --on system 'rate=x = -x' x=1 dt=0.05
+grep -q 'BROKEN' out || fail "a false order"
+rm own.system false.scheme large.system shifted.system metres.system
 status 0 certify box --on kdv
 grep -q 'without --on it is measured' out || fail "kdv, certified: $(cat out)"
 refused 1 'waves on a line or on moving meshes; cavity is none' certify steady --on cavity

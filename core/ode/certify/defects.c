@@ -326,25 +326,22 @@ static bool go_on(const struct gm_subject *subject, double *end)
            (adaptive && memcmp(whole, end, gm_subject_components(subject) * sizeof *end) != 0);
 }
 
-/* The change of a quantity with a displacement of the start by this part of its components' sizes. */
-static double change_by(const struct gm_subject *subject, const struct gm_kept *kept, double part,
-                        int direction)
-{
-    double near[MOST];
-    for (size_t c = 0; c < subject->problem.n; c++) {
-        near[c] =
-            subject->start[c] + part * gm_subject_size(subject, c) * gm_sin(direction * (double)(3 * c + 1));
-    }
-    return fabs(kept->value(kept->data, near, NULL) - kept->value(kept->data, subject->start, NULL));
-}
-
 double gm_kept_unit(const struct gm_subject *subject, const struct gm_kept *kept)
 {
-    enum { DIRECTIONS = 4 };
-    const double part = 1e-3, other = 1e4;
-    double terms = 0;
-    for (int k = 1; k <= DIRECTIONS; k++) {
-        terms = fmax(terms, change_by(subject, kept, part, k) / part);
+    enum { PARTS = 4, STEPS = 8 };
+    const double other = 1e4, before = kept->value(kept->data, subject->start, NULL);
+    const struct gm_subject between = gm_subject_between_events(subject);
+    double start[MOST], end[MOST], terms = 0;
+    gm_subject_start(subject, start);
+    if (!gm_subject_advance(&between, subject->dt, STEPS, start, end)) {
+        return 1;
+    }
+    for (int k = 1; k <= PARTS; k++) {
+        double moved[MOST];
+        for (size_t c = 0; c < subject->problem.n; c++) { /* some of the components, any */
+            moved[c] = gm_sin(k * (double)(3 * c + 1)) > 0 ? end[c] : start[c];
+        }
+        terms = fmax(terms, fabs(kept->value(kept->data, moved, NULL) - before));
     }
     return terms > 0 && isfinite(terms) && (terms < 1 / other || terms > other) ? terms : 1;
 }
@@ -366,7 +363,12 @@ double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept)
 
 double gm_round_off_of(const struct gm_subject *subject, const struct gm_kept *kept)
 {
-    return change_by(subject, kept, 100 * DBL_EPSILON, 1);
+    double near[MOST];
+    for (size_t c = 0; c < subject->problem.n; c++) {
+        near[c] =
+            subject->start[c] + 100 * DBL_EPSILON * gm_subject_size(subject, c) * gm_sin((double)(3 * c + 1));
+    }
+    return fabs(kept->value(kept->data, near, NULL) - kept->value(kept->data, subject->start, NULL));
 }
 
 static double energy_drift(const struct gm_subject *subject)

@@ -592,32 +592,30 @@ static bool loses_energy(const struct gm_scheme *scheme)
     return same && first && gm_scheme_has_coefficients(first->scheme);
 }
 
-/* Returns the size of each component, the larger one of its start and of its change in a step; of q and of p one size,
-   that of the largest, so that dq dp has one unit. The caller frees; NULL: none differs from the scale by more than a
-   factor that a change of the start may have, or out of memory. */
+/* Returns the sizes of canonical coordinates, one of all q and one of all p, so that dq dp has one unit: of each the
+   largest number, or its change in a step. The caller frees; NULL: neither is far from the scale, or out of memory. Other
+   components may be small for another reason than their unit, such as a field's far from a wave. */
 static double *sizes_of(const struct gm_subject *subject)
 {
     const double other = 1e4;
-    const size_t n = subject->problem.n;
-    const bool halves = gm_ode_of(&subject->problem)->hamiltonian && n % 2 == 0;
-    double *sizes = malloc(2 * n * sizeof *sizes), *rate = sizes + n;
+    const size_t n = subject->problem.n, half = n / 2;
+    double *sizes =
+        facets(&subject->problem) & GM_NEEDS_ENERGY && n % 2 == 0 ? malloc(2 * n * sizeof *sizes) : NULL;
     bool differ = false;
     if (!sizes) {
         return NULL;
     }
-    gm_field(&subject->problem, subject->start, rate, 1);
-    for (size_t c = 0; c < n; c++) {
-        sizes[c] = fmax(fabs(subject->start[c]), fabs(subject->dt * rate[c]));
-    }
-    for (size_t c = 1; halves && c < n; c++) {
-        const size_t first = c < n / 2 ? 0 : n / 2;
-        sizes[first] = fmax(sizes[first], sizes[c]);
-    }
-    for (size_t c = 0; c < n; c++) {
-        sizes[c] = halves ? sizes[c < n / 2 ? 0 : n / 2] : sizes[c];
-        const bool own = sizes[c] > 0 && isfinite(sizes[c]) &&
-                         (sizes[c] < subject->scale / other || sizes[c] > subject->scale * other);
-        sizes[c] = own ? sizes[c] : subject->scale;
+    gm_field(&subject->problem, subject->start, sizes + n, 1);
+    for (size_t side = 0; side < n; side += half) {
+        double size = 0;
+        for (size_t c = side; c < side + half; c++) {
+            size = fmax(size, fmax(fabs(subject->start[c]), fabs(subject->dt * sizes[n + c])));
+        }
+        const bool own =
+            size > 0 && isfinite(size) && (size < subject->scale / other || size > subject->scale * other);
+        for (size_t c = side; c < side + half; c++) {
+            sizes[c] = own ? size : subject->scale;
+        }
         differ = differ || own;
     }
     if (!differ) {

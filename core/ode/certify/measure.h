@@ -92,8 +92,8 @@ double gm_defect(const struct gm_subject *subject, enum gm_claim claim, double t
 /* Returns the relative change of a quantity over many smaller steps; NaN if they fail, and of an adaptive scheme if
    none is made. */
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept);
-/* Returns the unit of a quantity: 1, or the size of its terms where that is far from 1; with those sizes |value| at the
-   start may be far below it, if terms cancel there. */
+/* Returns the unit of a quantity: 1, or where that is far from 1, what it changes by if some components alone move as they
+   do in a few steps. Its value at the start may be far below that, where its terms cancel. */
 double gm_kept_unit(const struct gm_subject *subject, const struct gm_kept *kept);
 /* Returns what changes of a quantity are relative to: its value at the start, or its unit if that is larger. */
 double gm_kept_size(const struct gm_subject *subject, const struct gm_kept *kept);
