@@ -176,10 +176,15 @@ static bool has_velocities(const struct gm_user_system *system, double *values, 
     return gm_equations_check_velocities(system, values, &fault) || gm_refuse(sentence, "%s", fault.sentence);
 }
 
-/* Returns true unless a rate is not finite in a magnetic field, whose steps do not evaluate the field at their start. */
-static bool has_field(const struct gm_problem *problem, const double *values, char *sentence)
+/* Looks at the rates at the start. Returns false if one is not finite in a magnetic field, whose steps do not evaluate the
+   field at their start. Momenta that are 0 may have a unit in which their first step is far larger than all numbers of the
+   start: it is no blow-up. */
+static bool has_field(struct gm_problem *problem, double dt, const double *values, char *sentence)
 {
-    double *rates = gm_ode_of(problem)->magnetic ? malloc(problem->n * sizeof *rates) : NULL;
+    const double other = 1e6, growth = 1e10; /* as core/run.c */
+    const struct gm_ode *ode = gm_ode_of(problem);
+    double *rates = ode->magnetic || ode->hamiltonian ? malloc(problem->n * sizeof *rates) : NULL;
+    double largest = 1, fastest = 0;
     bool finite = true;
     if (rates) {
         struct gm_problem alone = *problem;
@@ -188,9 +193,12 @@ static bool has_field(const struct gm_problem *problem, const double *values, ch
     }
     for (size_t i = 0; rates && i < problem->n; i++) {
         finite = finite && isfinite(rates[i]);
+        largest = fmax(largest, fabs(values[i]));
+        fastest = fmax(fastest, fabs(dt * rates[i]));
     }
+    problem->bound = fastest > other * largest && isfinite(fastest) ? growth * fastest : problem->bound;
     free(rates);
-    return finite || gm_refuse(sentence, "the rates are not finite at the start");
+    return finite || !ode->magnetic || gm_refuse(sentence, "the rates are not finite at the start");
 }
 
 /* Returns true if the sizes of the surfaces are positive. */
@@ -224,7 +232,7 @@ static bool open_problem(const struct gm_system_lane *lane, double *values, stru
     }
     problem->name = system_scene->scene.name;
     if ((gm_action_constraints(problem) > 0 && !starts_on_manifold(problem, values, sentence)) ||
-        !has_field(problem, values, sentence)) {
+        !has_field(problem, lane->timing.dt, values, sentence)) {
         gm_user_problem_close(problem);
         return false;
     }

@@ -593,35 +593,34 @@ static bool loses_energy(const struct gm_scheme *scheme)
 }
 
 /* Returns the sizes of canonical coordinates, one of all q and one of all p, so that dq dp has one unit: of each the
-   largest number, or its change in a step. The caller frees; NULL: neither is far from the scale, or out of memory. Other
-   components may be small for another reason than their unit, such as a field's far from a wave. */
-static double *sizes_of(const struct gm_subject *subject)
+   largest number, or its change in a step. The scale becomes the larger one. The caller frees; NULL: neither is far from
+   the scale, or out of memory. Other components may be small for another reason than their unit, such as a field's far
+   from a wave. */
+static double *sizes_of(struct gm_subject *subject)
 {
     const double other = 1e4;
     const size_t n = subject->problem.n, half = n / 2;
     double *sizes =
         facets(&subject->problem) & GM_NEEDS_ENERGY && n % 2 == 0 ? malloc(2 * n * sizeof *sizes) : NULL;
-    bool differ = false;
+    double of[2] = {0};
     if (!sizes) {
         return NULL;
     }
     gm_field(&subject->problem, subject->start, sizes + n, 1);
-    for (size_t side = 0; side < n; side += half) {
-        double size = 0;
-        for (size_t c = side; c < side + half; c++) {
-            size = fmax(size, fmax(fabs(subject->start[c]), fabs(subject->dt * sizes[n + c])));
-        }
-        const bool own =
-            size > 0 && isfinite(size) && (size < subject->scale / other || size > subject->scale * other);
-        for (size_t c = side; c < side + half; c++) {
-            sizes[c] = own ? size : subject->scale;
-        }
-        differ = differ || own;
+    for (size_t c = 0; c < n; c++) {
+        of[c / half] = fmax(of[c / half], fmax(fabs(subject->start[c]), fabs(subject->dt * sizes[n + c])));
     }
-    if (!differ) {
+    const double largest = fmax(of[0], of[1]);
+    if (!(fmin(of[0], of[1]) > 0 && isfinite(largest) &&
+          (largest > other * subject->scale || fmin(of[0], of[1]) * other < subject->scale))) {
         free(sizes);
+        return NULL;
     }
-    return differ ? sizes : NULL;
+    subject->scale = fmax(subject->scale, largest);
+    for (size_t c = 0; c < n; c++) {
+        sizes[c] = of[c / half] * other < subject->scale ? of[c / half] : subject->scale;
+    }
+    return sizes;
 }
 
 static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
@@ -681,8 +680,9 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
         certificate->order_reason = "the errors of shorter steps follow no power of dt";
     } else if (isnan(certificate->order)) {
         certificate->order_reason =
-            certificate->ladder.fails
-                ? "with every step from 8 dt down the run fails before its end"
+            certificate->ladder.fails ? "with every step from 8 dt down the run fails before its end"
+            : certificate->ladder.large
+                ? "errors of all steps from 8 dt down are as large as the motion: take a shorter dt"
                 : "no errors of steps from 8 dt down exceed round-off: take a longer dt";
     }
     certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;

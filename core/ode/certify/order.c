@@ -190,6 +190,7 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
         if (error < plateau) {
             break;
         }
+        ladder->large = !(error < ceiling);
         if (error < ceiling) {
             x[count] = gm_log(ladder->dt[count] = dt);
             e[count] = gm_log(ladder->error[count] = error);
