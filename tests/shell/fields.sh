@@ -121,6 +121,11 @@ grep -q 'steps H  *drifts  *change 8.4e-02' out || fail "an energy of 0: $(cat o
 status 4 certify 'strang(A by rk4, B by rk4; order: 2; claims: keeps energy)' --on system 'H=p^2/2+q^2/2' \
     'part=A = p^2/2+q^2/4 , B = q^2/4' q=1e-7 p=0 dt=0.5
 grep -q 'H conserves energy  *BROKEN  *defect 2.7e-02' out || fail "an energy of small numbers: $(cat out)"
+# a beat grows in 4000 steps, and a drift grows in more
+status 0 certify verlet --on system 'H=p1^2/2 + q1^2/2 + p2^2/2 + w^2*q2^2/2' w=1.004 q1=1 q2=0 p1=0 p2=1 dt=0.1
+grep -q 'steps H  *oscillates' out || fail "a beat: $(cat out)"
+status 0 certify rk4 --on system 'H=p^2/2-cos(q)' q=2 p=0 dt=0.02
+grep -q 'steps H  *drifts' out || fail "a slow drift: $(cat out)"
 # an order that theory proves is not refuted by a system that is stiff for the steps
 status 0 certify radau5 --on system 'rate=x = -1e4*(x^3 - cos(t)^3) - sin(t)' x=1 dt=0.05
 grep -q 'measured 2.9.*not reached on this system' out || fail "an order on a stiff system: $(cat out)"

@@ -402,6 +402,34 @@ static void see_jump(void *data, const struct gm_event_part *part)
     jumps->sum += kept->value(kept->data, part->after, NULL) - kept->value(kept->data, part->before, NULL);
 }
 
+/* The change of the invariant from x0, without the jumps. */
+static double change_from(const struct gm_run *run, const struct jumps *jumps, double x0)
+{
+    const struct gm_kept *kept = jumps->kept;
+    return kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0 - jumps->sum;
+}
+
+/* Returns false if a small change that grew so far stops to grow when the run is made up to sixteen times as long: that of
+   a beat or of a slow oscillation does. Large systems are taken at their word. */
+static bool grows_on(struct gm_run *run, const struct jumps *jumps, double x0, double so_far)
+{
+    enum { DOUBLINGS = 4, STEPS = 10, SMALL = 32 };
+    for (int k = 0; k < DOUBLINGS && run->problem->n <= SMALL; k++) {
+        double most = 0;
+        for (const int64_t end = 2 * run->steps; run->steps < end;) {
+            if (gm_run_advance(run, STEPS) != GM_OK) {
+                return true;
+            }
+            most = fmax(most, fabs(change_from(run, jumps, x0)));
+        }
+        if (most < 1.5 * so_far) {
+            return false;
+        }
+        so_far = most;
+    }
+    return true;
+}
+
 /* Notes what becomes of an invariant in 4000 steps, beside the jumps of events, and judges the claims that concern it. */
 static void follow(struct gm_certificate *certificate, const struct gm_subject *subject, const char *name,
                    const struct gm_kept *kept, unsigned claims)
@@ -424,7 +452,7 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     run->witness = (struct gm_event_witness){see_jump, &jumps};
     int look = 0;
     for (; look < QUARTERS * LOOKS && gm_run_advance(run, STEPS) == GM_OK; look++) {
-        const double change = kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0 - jumps.sum;
+        const double change = change_from(run, &jumps, x0);
         struct quarter *now = &quarters[look / LOOKS];
         *now = look % LOOKS == 0 ? (struct quarter){change, change}
                                  : (struct quarter){fmin(now->low, change), fmax(now->high, change)};
@@ -442,8 +470,10 @@ static void follow(struct gm_certificate *certificate, const struct gm_subject *
     } else if (row->defect <= fmax(round_off, (double)row->steps * rounding)) {
         row->verdict = "conserved";
     } else {
+        const bool grows = drifts(&quarters[0], &quarters[QUARTERS - 1], low, high, scale),
+                   small = high - low < 0.05 * scale;
         row->verdict =
-            drifts(&quarters[0], &quarters[QUARTERS - 1], low, high, scale) ? "drifts" : "oscillates";
+            grows && (!small || grows_on(run, &jumps, x0, fmax(-low, high))) ? "drifts" : "oscillates";
     }
     judge(certificate, subject, row, kept, claims, rounding);
     gm_run_close(run);
