@@ -126,6 +126,13 @@ status 0 certify verlet --on system 'H=p1^2/2 + q1^2/2 + p2^2/2 + w^2*q2^2/2' w=
 grep -q 'steps H  *oscillates' out || fail "a beat: $(cat out)"
 status 0 certify rk4 --on system 'H=p^2/2-cos(q)' q=2 p=0 dt=0.02
 grep -q 'steps H  *drifts' out || fail "a slow drift: $(cat out)"
+# steps that any scheme would make show nothing
+status 0 certify 'projected(rk4; H; order: 4; claims: symplectic symmetric)' --on kepler eccentricity=0.3 dt=0.002
+grep -q 'S symplectic  *not decided .*take a longer dt' out || fail "short steps: $(cat out)"
+status 4 certify 'projected(rk4; H; order: 4; claims: symplectic symmetric)' --on kepler eccentricity=0.3 dt=0.05
+grep -q '= symmetric  *BROKEN' out || fail "longer steps: $(cat out)"
+status 0 certify 'relaxed(rk4; H; order: 4; claims: symmetric)' --on system 'H=p^2/2 - cos(q)' q=0 p=0 dt=0.1
+grep -q '= symmetric  *not decided .*equilibrium' out || fail "an equilibrium: $(cat out)"
 # an order that theory proves is not refuted by a system that is stiff for the steps
 status 0 certify radau5 --on system 'rate=x = -1e4*(x^3 - cos(t)^3) - sin(t)' x=1 dt=0.05
 grep -q 'measured 2.9.*not reached on this system' out || fail "an order on a stiff system: $(cat out)"

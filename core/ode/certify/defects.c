@@ -313,6 +313,16 @@ static double decide(const struct gm_subject *subject, enum gm_claim claim, doub
     return NAN;
 }
 
+double gm_step_error(const struct gm_subject *subject)
+{
+    double start[MOST], once[MOST], twice[MOST];
+    gm_subject_start(subject, start);
+    return gm_subject_advance(subject, subject->dt, 1, start, once) &&
+                   gm_subject_advance(subject, subject->dt / 2, 2, start, twice)
+               ? distance(subject, once, twice)
+               : NAN;
+}
+
 /* The state after many smaller steps; false: they fail. */
 static bool go_on(const struct gm_subject *subject, double *end)
 {

@@ -4,6 +4,7 @@
 #include "core/functions/functions.h"
 #include "core/ode/ode.h"
 
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -537,6 +538,43 @@ static void doubt(struct gm_certificate *certificate, const struct gm_subject *s
     }
 }
 
+/* True if no step moves the start. */
+static bool rests(const struct gm_subject *subject)
+{
+    double rate[GM_SUBJECT_COMPONENTS];
+    bool moves = false;
+    gm_field(&subject->problem, subject->start, rate, 1);
+    for (size_t c = 0; c < subject->problem.n; c++) {
+        moves = moves || !(fabs(subject->dt * rate[c]) <= DBL_EPSILON * gm_subject_size(subject, c));
+    }
+    return !moves;
+}
+
+/* Leaves claims undecided that hold in steps which any scheme would make: from an equilibrium, or so short that the error of
+   a step is not seen. What theory proves needs no error. */
+static void doubt_steps(struct gm_certificate *certificate, const struct gm_subject *subject)
+{
+    const unsigned differentiated = GM_SYMPLECTIC | GM_CONFORMAL | GM_POISSON_MAP | GM_KEEPS_VOLUME,
+                   of_step = differentiated | GM_SYMMETRIC | GM_REVERSIBLE;
+    const bool resting = rests(subject), proved = !subject->scheme->word ||
+                                                  subject->scheme->family->adaptive ||
+                                                  gm_scheme_theory(subject->scheme).known;
+    const double visible = proved ? INFINITY : gm_step_error(subject);
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        struct gm_verdict *verdict = &certificate->claims[bit];
+        const bool rest = resting && !(differentiated >> bit & 1),
+                   hidden = of_step >> bit & 1 && visible <= 10 * verdict->tolerance;
+        if ((rest || hidden) && verdict->measured && verdict->defect <= verdict->tolerance) {
+            verdict->measured = false;
+            verdict->undecided = true;
+            verdict->reason =
+                rest ? "the start is an equilibrium, from which no step moves: start elsewhere"
+                     : "these steps are exact to the digits that count, so that nothing of the scheme "
+                       "shows: take a longer dt";
+        }
+    }
+}
+
 /* *first := the time of the first event or break, if it is NaN. */
 static void see_first(void *data, const struct gm_event_part *part)
 {
@@ -720,6 +758,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     if (rough) {
         doubt(certificate, &subject);
     }
+    doubt_steps(certificate, &subject);
     free(start);
     free(sizes);
 }

@@ -89,6 +89,9 @@ double gm_measure_order(const struct gm_subject *subject, struct gm_ladder *ladd
        GM_KEEPS_CONSTRAINTS, _HIDDEN  the constraints after as many steps */
 double gm_defect(const struct gm_subject *subject, enum gm_claim claim, double tolerance);
 
+/* Returns the difference between one step and two half ones: about the error of a step. NaN if they fail. */
+double gm_step_error(const struct gm_subject *subject);
+
 /* Returns the relative change of a quantity over many smaller steps; NaN if they fail, and of an adaptive scheme if
    none is made. */
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept);
