@@ -85,6 +85,7 @@ struct gm_scheme {
     int order;                /* 0: variable order */
     unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */
+    unsigned follows;         /* of a user's scheme: the claims that follow from its parts, listed or not */
     /* The fields below are for pictures and messages. */
     const struct gm_step_limit *limit; /* NULL: none is known */
     bool steady;                       /* steps lead to a steady state: there is no time */

@@ -24,7 +24,7 @@ struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum
 unsigned gm_certificate_given_up(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
-    unsigned lost = scheme->base ? scheme->base->claims & ~scheme->claims : 0;
+    unsigned lost = scheme->base ? scheme->base->claims & ~(scheme->claims | scheme->follows) : 0;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *verdict = &certificate->claims[bit];
         lost &= verdict->measured && verdict->defect <= verdict->tolerance ? ~(1u << bit) : ~0u;

@@ -87,7 +87,7 @@ struct gm_certificate {
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 /* Returns the claims that the base of a scheme makes and the scheme does not, but for those that were measured within
-   the tolerance; 0 without a base. */
+   the tolerance, and those that it would make if its text did not list others; 0 without a base. */
 unsigned gm_certificate_given_up(const struct gm_certificate *certificate);
 
 /* A quantity that the motion conserves. */

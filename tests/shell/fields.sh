@@ -129,6 +129,8 @@ grep -q 'steps H  *drifts' out || fail "a slow drift: $(cat out)"
 # steps that any scheme would make show nothing
 status 0 certify 'projected(rk4; H; order: 4; claims: symplectic symmetric)' --on kepler eccentricity=0.3 dt=0.002
 grep -q 'S symplectic  *not decided .*take a longer dt' out || fail "short steps: $(cat out)"
+status 0 certify 'relaxed(rk4; H; claims: keeps energy)' --on kepler
+! grep -q 'given up.*linear' out || fail "linear invariants of a relaxed step, which it keeps: $(cat out)"
 status 4 certify 'projected(rk4; H; order: 4; claims: symplectic symmetric)' --on kepler eccentricity=0.3 dt=0.05
 grep -q '= symmetric  *BROKEN' out || fail "longer steps: $(cat out)"
 status 0 certify 'relaxed(rk4; H; order: 4; claims: symmetric)' --on system 'H=p^2/2 - cos(q)' q=0 p=0 dt=0.1

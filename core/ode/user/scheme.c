@@ -1158,6 +1158,7 @@ static void finish(const struct making *making, struct own *self, const char *na
         row->order = written->order > 0 ? written->order : base->order;
         row->claims = base->claims;
     }
+    row->follows = row->claims;
     if (claims->said) {
         read_claims(making, claims, &row->claims);
     }
