@@ -113,7 +113,7 @@ struct gm_grid {
     char reference[96]; /* the reference of the error, in words */
     const struct gm_scheme
         *trusted; /* the scheme of the reference run, which has this step; NULL: the solution is exact */
-    double reference_step;
+    double reference_step, reference_error; /* the error: 0 if it is not known */
     struct gm_lane *finer; /* the reference run, if the scene measures distances from it; else NULL */
     double *solution;      /* the reference state for differences, or NULL */
     bool smaller_is_finer; /* true for a parameter such as the distance of nodes */

@@ -97,6 +97,9 @@ for jobs in 1 2; do
 done
 cmp -s "$folder/jobs1/stiff-stability.csv" "$folder/jobs2/stiff-stability.csv" || fail 'another number of jobs makes another map'
 
+# where the system allows a low order alone the reference of order 8 is no better: x = 2/3 t^1.5, and its error is told
+status 0 work-precision system 'rate=x = sqrt(t)' x=0 scheme=gauss6 until=1 --out "$folder/root"
+grep -q 'the reference has an error of about 2.8e-07 itself' out || fail "the error of the reference: $(cat out)"
 # bounded and accurate are two questions: RK4 with 40 steps a period and e = 0.5 is the one, not the other
 for judge in bounded accurate=1e-2; do
     "$geomint" stability kepler scheme=rk4 until=8*pi --judge $judge --size 320x180 --out "$folder" >"$folder/out" \

@@ -377,9 +377,10 @@ enum { REPEATS = 5 };
 /* A measurement is repeated up to this time, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
-/* A run of the trusted scheme to its end, which is not timed and reports its progress; with another value
-   of a parameter unless `row` is NULL. */
-static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
+/* A run of the trusted scheme with this step, to its end or a failure, which is not timed and reports its progress; with
+   another value of a parameter unless `row` is NULL. */
+static struct gm_lane *run_trusted(struct gm_grid *grid, double step, const struct gm_parameter *row,
+                                   double value)
 {
     char message[GM_MESSAGE];
     const struct gm_lane_spec *spec = &grid->request.lanes[0];
@@ -388,7 +389,7 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
     if (row) {
         gm_parameter_put(row, timing, value);
     }
-    timing->dt = grid->reference_step;
+    timing->dt = step;
     struct gm_lane *lane =
         gm_lane_in(grid->arena, gm_grid_start(grid, spec, timing, grid->trusted, message), message);
     const int64_t steps = gm_run_steps_at(lane->run, gm_grid_timing(grid)->until);
@@ -401,9 +402,31 @@ static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_param
         /* the carried rounding errors are worth their cost here */
         gm_grid_advance(grid, lane, percent < 99 ? (int64_t)(share * (double)steps) : steps, INFINITY);
     }
+    return lane;
+}
+
+static struct gm_lane *run_reference(struct gm_grid *grid, const struct gm_parameter *row, double value)
+{
+    struct gm_lane *lane = run_trusted(grid, grid->reference_step, row, value);
     gm_arena_refuse_if(grid->arena, lane->run->status != GM_OK || gm_listener_stops(grid->listener),
                        "the reference, %s, failed: %s", grid->reference, gm_status_name(lane->run->status));
     return lane;
+}
+
+/* The error of the reference, by runs with two and four times its step: their errors grow by the power of the step that
+   the system allows, which may be a lower one than the scheme's order. NaN if one fails. */
+static double error_of_reference(struct gm_grid *grid, size_t count)
+{
+    double ends[2], *last = gm_arena_take(grid->arena, count, sizeof *last);
+    memcpy(last, grid->solution, count * sizeof *last);
+    for (int k = 0; k < 2; k++) {
+        const struct gm_lane *lane = run_trusted(grid, (2 << k) * grid->reference_step, NULL, 0);
+        ends[k] = lane->run->status == GM_OK ? gm_distance(gm_run_state(lane->run), last, count) : NAN;
+        memcpy(last, gm_run_state(lane->run), count * sizeof *last);
+        gm_arena_drop(grid->arena, lane);
+    }
+    const double growth = ends[1] / ends[0];
+    return ends[0] / fmax(growth - 1, 1);
 }
 
 /* The reference run of a scene that measures distances from it: at twice the finest resolution, with half
@@ -464,6 +487,7 @@ static void find_solution(struct gm_grid *grid, const struct gm_lane *lane)
     const struct gm_lane *reference = run_reference(grid, NULL, 0);
     memcpy(grid->solution, gm_run_state(reference->run), count * sizeof *grid->solution);
     gm_arena_drop(grid->arena, reference);
+    grid->reference_error = error_of_reference(grid, count);
 }
 
 static void prepare(struct gm_grid *grid)

@@ -161,6 +161,7 @@ void gm_work_print(const struct gm_grid *grid)
     char heading[64];
     snprintf(heading, sizeof heading, "%s for an error of",
              grid->parameter ? grid->parameter->key : "evaluations");
+    double smallest = INFINITY;
     printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
     for (int cost = 0; cost < 2; cost++) {
         for (size_t i = 0; i < 3; i++) {
@@ -183,6 +184,7 @@ void gm_work_print(const struct gm_grid *grid)
             least = fmin(least, line->cells[k].error);
             last = line->cells[k].tried ? line->cells[k].status : last;
         }
+        smallest = fmin(smallest, least);
         if (isfinite(least)) {
             printf(" %9.1e\n", least);
         } else {
@@ -191,6 +193,11 @@ void gm_work_print(const struct gm_grid *grid)
         if (line->reason[0]) {
             printf("  none: %s\n", line->reason);
         }
+    }
+    if (grid->reference_error > fmax(0.1 * smallest, 1e-11)) {
+        printf(
+            "the reference has an error of about %.1e itself: those that are not far above it are partly its own\n",
+            grid->reference_error);
     }
     printf("%s\n", sentence_of(grid, sentence, sizeof sentence));
     if (grid->best_is_none) {
