@@ -294,8 +294,8 @@ static unsigned refuted_by(const struct gm_theory *theory, bool written)
            (theory->plain ? 0 : GM_KEEPS_QUADRATIC) | (theory->symmetric ? 0 : GM_SYMMETRIC | GM_REVERSIBLE);
 }
 
-/* `given`: the measurement is on one given system. What theory proves, that refutes nothing: it takes more derivatives
-   than the system may have, and holds of stiff systems only for steps shorter than their fastest time. */
+/* `given`: the measurement is on one given system. It refutes no order that theory proves: the proof needs more derivatives
+   than the system may have, and of a stiff system steps shorter than its fastest time. */
 static void ask_theory(struct gm_certificate *certificate, bool given)
 {
     const struct gm_scheme *scheme = certificate->scheme;

@@ -50,7 +50,7 @@ struct gm_ladder {
     /* two octaves of dt give the same; else an order below the theoretical one refutes nothing */
     bool settled;
     bool fails; /* no run reached its end, at any step */
-    bool large; /* the last error that was measured is no small part of the motion */
+    bool large; /* the last error that was measured is as large as the motion */
 };
 
 /* A scheme that makes the same steps on some problems: the largest difference that was seen, as a part of the

@@ -178,7 +178,7 @@ static bool has_velocities(const struct gm_user_system *system, double *values, 
 
 /* Looks at the rates at the start. Returns false if one is not finite in a magnetic field, whose steps do not evaluate the
    field at their start. Momenta that are 0 may have a unit in which their first step is far larger than all numbers of the
-   start: it is no blow-up. */
+   start. That is not a blow-up, so the bound grows with it. */
 static bool has_field(struct gm_problem *problem, double dt, const double *values, char *sentence)
 {
     const double other = 1e6, growth = 1e10; /* as core/run.c */

@@ -196,7 +196,7 @@ void gm_work_print(const struct gm_grid *grid)
     }
     if (grid->reference_error > fmax(0.1 * smallest, 1e-11)) {
         printf(
-            "the reference has an error of about %.1e itself: those that are not far above it are partly its own\n",
+            "the reference has an error of about %.1e itself, which is a part of errors that are not far larger\n",
             grid->reference_error);
     }
     printf("%s\n", sentence_of(grid, sentence, sizeof sentence));

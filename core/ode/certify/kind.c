@@ -410,8 +410,8 @@ static double change_from(const struct gm_run *run, const struct jumps *jumps, d
     return kept->value(kept->data, gm_run_state(run), gm_run_memory(run)) - x0 - jumps->sum;
 }
 
-/* Returns false if a small change that grew so far stops to grow when the run is made up to sixteen times as long: that of
-   a beat or of a slow oscillation does. Large systems are taken at their word. */
+/* Returns false if a small change that grew so far stops to grow when the run is made up to sixteen times as long, as in a
+   beat or a slow oscillation. Large systems are taken at their word. */
 static bool grows_on(struct gm_run *run, const struct jumps *jumps, double x0, double so_far)
 {
     enum { DOUBLINGS = 4, STEPS = 10, SMALL = 32 };

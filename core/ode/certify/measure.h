@@ -95,7 +95,7 @@ double gm_step_error(const struct gm_subject *subject);
 /* Returns the relative change of a quantity over many smaller steps; NaN if they fail, and of an adaptive scheme if
    none is made. */
 double gm_drift(const struct gm_subject *subject, const struct gm_kept *kept);
-/* Returns the unit of a quantity: 1, or where that is far from 1, what it changes by if some components alone move as they
+/* Returns the unit of a quantity: 1, or, if that is far from 1, what it changes by if some components alone move as they
    do in a few steps. Its value at the start may be far below that, where its terms cancel. */
 double gm_kept_unit(const struct gm_subject *subject, const struct gm_kept *kept);
 /* Returns what changes of a quantity are relative to: its value at the start, or its unit if that is larger. */

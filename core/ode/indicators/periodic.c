@@ -516,7 +516,7 @@ static size_t nearer_than(const struct gm_periodic *orbit, size_t i)
     return nearer;
 }
 
-/* The error of `ones` multipliers 1. A root of order k moves by the k-th root of an error; those of the structure come in
+/* The error of `ones` multipliers 1. A root of order k moves by the k-th root of an error. Multipliers of the structure come in
    pairs, f and an invariant, whose blocks have two rows. */
 static double error_of_ones(const struct gm_periodic *orbit, size_t ones)
 {
