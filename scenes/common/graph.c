@@ -504,27 +504,45 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
     return made;
 }
 
+/* Widens a range to the curves of the lanes that go on, or of those that have failed: of these, on axes that are
+   not logarithmic, only where they are near the others, which would be flat beside a blow-up. Returns true if
+   all values are exactly 0. */
+static bool hold_curves(const struct gm_lane *const *lanes, size_t count, bool failed, size_t series,
+                        const struct gm_graph *graph, double *points, double range[2])
+{
+    const bool all = !failed || graph->scale == GM_LOG || range[0] > range[1];
+    const double reach = fmax(range[1] - range[0], 0.1 * fmax(fabs(range[0]), fabs(range[1]))),
+                 lowest = all ? -INFINITY : range[0] - reach, highest = all ? INFINITY : range[1] + reach;
+    bool exact = true;
+    for (size_t i = 0; i < count; i++) {
+        if ((lanes[i]->run->status != GM_OK) != failed) {
+            continue;
+        }
+        const size_t made = curve_of(lanes[i], series, graph, points);
+        exact = exact && made > 1;
+        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
+        for (size_t k = 0; k < made; k++) {
+            const double value = points[2 * k + 1];
+            exact = exact && value == 0;
+            if ((graph->scale != GM_LOG || value > 0) && value >= lowest && value <= highest) {
+                gm_range_add(&range[0], &range[1], fmin(value, most));
+            }
+        }
+    }
+    return exact;
+}
+
 /* Gives the panel the range of all curves. Returns true if all are exactly 0, which has no logarithm. */
 static bool set_value_axis(struct gm_panel *panel, const struct gm_lane *const *lanes, size_t count,
                            size_t series, const struct gm_graph *graph, double *points)
 {
     const bool calm = graph->calm_low != graph->calm_high;
-    double low = calm ? graph->calm_low : 1, high = calm ? graph->calm_high : 0;
-    bool exact = lanes[0]->scene->observables[series].error;
-    for (size_t i = 0; i < count; i++) {
-        const size_t made = curve_of(lanes[i], series, graph, points);
-        exact = exact && made > 1;
-        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
-        for (size_t k = 0; k < made; k++) {
-            exact = exact && points[2 * k + 1] == 0;
-            if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
-            }
-        }
-    }
-    gm_range_round(&low, &high, graph->scale);
-    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = low, .high = high};
-    return exact;
+    double range[2] = {calm ? graph->calm_low : 1, calm ? graph->calm_high : 0};
+    const bool go = hold_curves(lanes, count, false, series, graph, points, range),
+               failed = hold_curves(lanes, count, true, series, graph, points, range);
+    gm_range_round(&range[0], &range[1], graph->scale);
+    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = range[0], .high = range[1]};
+    return lanes[0]->scene->observables[series].error && go && failed;
 }
 
 static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
