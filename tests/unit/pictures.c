@@ -319,6 +319,26 @@ static void residuals_have_colours_of_their_own(void **state)
     close_drawn(&drawn);
 }
 
+/* A lane that has blown up does not set the colours and the linear graphs of all. */
+static void a_blow_up_hides_no_lane(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("form-wave level=2 scheme=verlet,midpoint dt=0.4", 30, &drawn);
+    assert_int_equal(drawn.lanes[0]->run->status, GM_BLOW_UP);
+    for (const struct gm_panel *panel = drawn.picture->first; panel; panel = panel->next) {
+        for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+            if (mark->kind == GM_MARK_MESH) {
+                assert_true(mark->high <= 1 && mark->low == -mark->high);
+                assert_true(strcmp(panel->title, "midpoint") == 0 || (mark->below && mark->above));
+            }
+        }
+    }
+    const struct gm_panel *mean = panel_titled(drawn.picture, "mean");
+    assert_true(mean->y.low > -1e-12 && mean->y.high < 1e-12);
+    close_drawn(&drawn);
+}
+
 /* The graph of the cell's volume ends where it does, not at the end of the run. */
 static void the_volume_fills_its_graph(void **state)
 {
@@ -584,6 +604,7 @@ int main(void)
         cmocka_unit_test(who_runs_away_leaves_the_scale),
         cmocka_unit_test(the_pendulum_goes_around),
         cmocka_unit_test(residuals_have_colours_of_their_own),
+        cmocka_unit_test(a_blow_up_hides_no_lane),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
         cmocka_unit_test(graphs_say_what_they_show),
