@@ -15,6 +15,7 @@
 #include "app/words/request.h"
 #include "core/basics.h"
 #include "scenes/common/graph.h"
+#include "scenes/common/symbol.h"
 #include "scenes/flow/room_scene.h"
 #include "scenes/mesh/observed.h"
 #include "tests/common/layout_faults.h"
@@ -319,6 +320,28 @@ static void residuals_have_colours_of_their_own(void **state)
     close_drawn(&drawn);
 }
 
+/* Digits at the end of a name are its index; those of a number and of a function that is called are none. */
+static void names_are_typeset(void **state)
+{
+    (void)state;
+    static const char *const texts[][2] = {
+        {"p_x^2 - 2*q1", "pₓ² − 2 q₁"},
+        {"q10 + q101", "q₁₀ + q₁₀₁"},
+        {"1e12 + 1.5E12", "1e12 + 1.5E12"},
+        {"1e-12*x2", "1e−12 x₂"},
+        {"log10(q) + log1p(q)", "log10(q) + log1p(q)"},
+        {"atan2(y1, x1) + log2(2)", "atan2(y₁, x₁) + log2(2)"},
+        {"log2 + f2(x)", "log₂ + f₂(x)"},
+        {"eps0 + lambda12", "ε₀ + λ₁₂"},
+        {"x[12] + 3q1e5", "x₁₂ + 3q₁e₅"},
+    };
+    struct gm_picture *picture = gm_picture_open();
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        assert_string_equal(gm_typeset(picture, texts[i][0]), texts[i][1]);
+    }
+    gm_picture_close(picture);
+}
+
 /* A lane that has blown up does not set the colours and the linear graphs of all. */
 static void a_blow_up_hides_no_lane(void **state)
 {
@@ -604,6 +627,7 @@ int main(void)
         cmocka_unit_test(who_runs_away_leaves_the_scale),
         cmocka_unit_test(the_pendulum_goes_around),
         cmocka_unit_test(residuals_have_colours_of_their_own),
+        cmocka_unit_test(names_are_typeset),
         cmocka_unit_test(a_blow_up_hides_no_lane),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
