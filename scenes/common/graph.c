@@ -545,6 +545,29 @@ static bool set_value_axis(struct gm_panel *panel, const struct gm_lane *const *
     return lanes[0]->scene->observables[series].error && go && failed;
 }
 
+/* Draws a curve. A value between gaps is a dot, as a line without length is hardly seen. */
+static void put_curve(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                      const double *points, size_t made)
+{
+    double *dots = gm_picture_memory(picture, 2 * (made + 1) * sizeof *dots);
+    size_t count = 0, length = 0;
+    for (size_t k = 0; k <= made; k++) {
+        const double value = k < made ? points[2 * k + 1] : NAN;
+        if (isfinite(value) && (panel->y.scale != GM_LOG || value > 0)) {
+            length++;
+            continue;
+        }
+        if (length == 1) {
+            memcpy(dots + 2 * count++, points + 2 * k - 2, 2 * sizeof *dots);
+        }
+        length = 0;
+    }
+    gm_mark_line(picture, panel, style, points, made, false);
+    if (count > 0) {
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 5, GM_SOLID}, dots, count);
+    }
+}
+
 static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                        bool alone, size_t series, const struct gm_graph *graph, double *points)
 {
@@ -554,7 +577,7 @@ static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     for (size_t k = 0; k < made && graph->time_unit > 0; k++) {
         points[2 * k] /= graph->time_unit;
     }
-    gm_mark_line(picture, panel, style, points, made, false);
+    put_curve(picture, panel, style, points, made);
     gm_mark_switches(picture, panel, lane, false);
     if (graph->named) {
         gm_panel_key(picture, panel, style, lane_name(lane));
@@ -631,7 +654,7 @@ static void draw_lane_together(struct gm_picture *picture, const struct gm_walk 
             continue;
         }
         const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
-        gm_mark_line(picture, panel, style, points, made, false);
+        put_curve(picture, panel, style, points, made);
         if (!missing) {
             gm_panel_key(picture, panel, style, together[i].name);
         }
