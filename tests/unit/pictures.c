@@ -342,6 +342,39 @@ static void names_are_typeset(void **state)
     gm_picture_close(picture);
 }
 
+/* The marks of a panel of one kind in the colours of lanes. */
+static size_t marks_of(const struct gm_panel *panel, enum gm_mark_kind kind)
+{
+    size_t count = 0;
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        count += mark->kind == kind && mark->style.role >= GM_LANE;
+    }
+    return count;
+}
+
+/* A few points of a flow are a line, those of a map are not; the only value of a graph is a dot. */
+static void few_steps_are_seen(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("system H=p^2/2+q^2/2 q=1 p=0 scheme=verlet dt=.1", 30, &drawn);
+    assert_true(marks_of(panel_titled(drawn.picture, "Verlet"), GM_MARK_LINE) > 0);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "Verlet"), GM_MARK_POINTS), 1);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "energy error"), GM_MARK_POINTS), 0);
+    close_drawn(&drawn);
+    open_drawn("kicked-rotor scheme=verlet", 30, &drawn);
+    const struct gm_panel *panel = panel_titled(drawn.picture, "Verlet");
+    assert_int_equal(marks_of(panel, GM_MARK_LINE), 0);
+    assert_int_equal(marks_of(panel, GM_MARK_POINTS), 2);
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        assert_true(mark->kind != GM_MARK_POINTS || mark->style.alpha > .5);
+    }
+    close_drawn(&drawn);
+    open_drawn("system H=p^2/2+q^2/2 q=1 p=0 scheme=verlet dt=.1", 1, &drawn);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "energy error"), GM_MARK_POINTS), 1);
+    close_drawn(&drawn);
+}
+
 /* A lane that has blown up does not set the colours and the linear graphs of all. */
 static void a_blow_up_hides_no_lane(void **state)
 {
@@ -628,6 +661,7 @@ int main(void)
         cmocka_unit_test(the_pendulum_goes_around),
         cmocka_unit_test(residuals_have_colours_of_their_own),
         cmocka_unit_test(names_are_typeset),
+        cmocka_unit_test(few_steps_are_seen),
         cmocka_unit_test(a_blow_up_hides_no_lane),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
