@@ -461,6 +461,28 @@ static struct gm_rectangle rectangle_of(enum which which, const double *number, 
                                  .irregular = count > 4 ? number[4] : 0};
 }
 
+/* Refuses the strips of a rectangle with the numbers of them that make acute triangles. */
+static bool refuse_strips(const struct gm_rectangle *rectangle, size_t place, struct gm_fault *fault)
+{
+    long least = 0, most = 0;
+    struct gm_rectangle other = *rectangle;
+    for (other.strips = 2; other.strips <= generators[RECTANGLE].highest; other.strips += 2) {
+        if (gm_rectangle_is_acute(&other)) {
+            least = least > 0 ? least : other.strips;
+            most = other.strips;
+        }
+    }
+    if (least == 0) {
+        return gm_fail(
+            fault, place,
+            "mesh: rectangle: %ld edges and %ld strips do not make acute triangles; with %ld strips it "
+            "takes about %ld edges",
+            rectangle->edges, rectangle->strips, rectangle->strips, gm_rectangle_edges(rectangle));
+    }
+    return gm_fail(fault, place, "mesh: rectangle: with %ld edges it takes %ld to %ld strips, not %ld",
+                   rectangle->edges, least, most, rectangle->strips);
+}
+
 bool gm_generator_check(const char *word, const double *number, size_t count, size_t place,
                         struct gm_fault *fault)
 {
@@ -510,10 +532,7 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         return true;
     }
     const struct gm_rectangle pattern = rectangle_of(which, number, count);
-    return gm_rectangle_is_acute(&pattern) ||
-           gm_fail(fault, place,
-                   "mesh: rectangle: %ld strips are not between half the width of an edge and all of it",
-                   rows);
+    return gm_rectangle_is_acute(&pattern) || refuse_strips(&pattern, place, fault);
 }
 
 /* The mesh while it is made. */

@@ -522,6 +522,8 @@ for words, sentence in (
         (["form-cochain", "n=60", "show=mesh"], "this mesh has 243: take a coarser one"),
         (["form-poisson", "numbers=yes", "level=2"], "this mesh has 962"),
         (["form-maxwell", "elevation=3"], "the mesh is in the plane"),
+        (["form-age", "N=48"], "rectangle: with 48 edges it takes 18 to 30 strips, not 10"),
+        (["form-age", "mesh=rectangle 1 0.1 4"], "with 2 strips it takes about 15 edges"),
         (["form-cochain", "n=61"], "60"), (["form-heat", "mesh=strip 1 0"], "0 is not a whole number from 1 to 4000")):
     status, out, err = run(words)
     check(status == 1 and sentence in err and out == "", f"{words} exits {status}: {out}{err}  not: {sentence}")
