@@ -433,6 +433,11 @@ static void numbers_are_whole(void **state)
     const char *const levels = "shapes every step;  grey: the circle of radius 1";
     const double narrow = letters_width(metrics.self, GM_TEXT_LABEL, "shapes every step;  grey: the circle");
     assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, levels, narrow), "shapes every step");
+    /* nor the comma before what is left out */
+    const char *const mesh = "736 triangles, circumcentric star ≥ 0.056,  Δt = 0.005";
+    const double short_of_step = letters_width(metrics.self, GM_TEXT_LABEL, mesh) - 1;
+    assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, mesh, short_of_step),
+                        "736 triangles, circumcentric star ≥ 0.056");
     gm_picture_close(picture);
 }
 
