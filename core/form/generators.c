@@ -489,12 +489,12 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
     const enum which which = which_of(word);
     if (which == GENERATORS) {
         return gm_fail(fault, place,
-                       "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
+                       "mesh: there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
                        "annulus R1 R2 N, sphere R level, torus R r N and strip L n are made",
                        word);
     }
     if (count < generators[which].least || count > generators[which].most) {
-        return gm_fail(fault, place, "a mesh %s has the numbers %s", word, generators[which].numbers);
+        return gm_fail(fault, place, "mesh: %s has the numbers %s", word, generators[which].numbers);
     }
     for (size_t i = 0; i < count && i < 4; i++) {
         const long lowest = generators[which].lowest, highest = generators[which].highest;
@@ -506,8 +506,10 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         const bool best = i == generators[which].rows && number[i] == 0 && generators[which].even;
         if (whole && !best &&
             !(number[i] == floor(number[i]) && number[i] >= (double)lowest && number[i] <= (double)highest)) {
-            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
-                           number[i], lowest, highest);
+            const bool within = number[i] > (double)lowest && number[i] < (double)highest;
+            return within ? gm_fail(fault, place, "mesh: %s: %g is not a whole number", word, number[i])
+                          : gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
+                                    number[i], lowest, highest);
         }
     }
     if (count > 4 && !(number[4] >= 0 && number[4] < 0.5)) {
