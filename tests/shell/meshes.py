@@ -90,6 +90,7 @@ def densities():
     refused("density: there is no name v; did you mean velocity, at column 10 of sqrt(1 + v)", "soliton", "density=sqrt(1 + v)")
     refused("density: it does not hold u_t, at column 5 of 1 + u_t", "soliton", "density=1 + u_t")
     refused("density: there is no name ux; did you mean u_x, at column 5 of 1 + ux", "soliton", "density=1 + ux")
+    refused("boundary: walls mean u_x = 0, and the ends of a moving mesh hold u", "phi4", "scheme=multiplier-trapezoidal", "boundary=walls")
     refused("density: there is no name temperd; did you mean tempered, at column 1", "soliton", "density=temperd")
     refused("bend, V_u, arclength, curvature, mix, limited, tempered, at column 1", "soliton", "density=equally")
     refused("density: there is no name u_tt; names are u_x, u, x, alpha, steepest, bend, V_u, at column 5 of 1 + u_tt", "soliton", "density=1 + u_tt")
