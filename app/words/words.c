@@ -319,12 +319,12 @@ static bool is_whole(const struct gm_parameter *row, const char *value)
     return row && row->names && !choices;
 }
 
-/* The key that an unknown one probably means, or NULL. */
+/* The key, or the option, that an unknown key probably means; NULL: none. */
 static const char *key_meant(const struct gm_scene *scene, const char *key)
 {
     const struct gm_near *row;
     for (size_t i = 0; (row = gm_near_find(GM_NEAR_KEY, key, i)); i++) {
-        if (known_key(scene, row->meant)) {
+        if (known_key(scene, row->meant) || strncmp(row->meant, "--", 2) == 0) {
             return row->meant;
         }
     }
