@@ -356,7 +356,7 @@ static bool is_symbol(const char *text)
 }
 
 /* Returns the label of a colour bar for this height, and its size: whole or its front, else smaller, else the
-   symbol at its end, else cut. Without one nothing says what the colours are. */
+   symbol at its end, else cut. Without it the colours have no meaning. */
 static const char *bar_label(struct gm_label_list *list, const char *text, double height,
                              enum gm_text_size *size)
 {

@@ -504,9 +504,9 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
     return made;
 }
 
-/* Widens a range to the curves of the lanes that go on, or of those that have failed: of these, on axes that are
-   not logarithmic, only where they are near the others, which would be flat beside a blow-up. Returns true if
-   all values are exactly 0. */
+/* Widens a range to the curves of the lanes that have failed, or of the others. On axes that are not logarithmic
+   values of failed lanes far beyond the others are left out: beside a blow-up the others would be flat. Returns
+   true if all values are exactly 0. */
 static bool hold_curves(const struct gm_lane *const *lanes, size_t count, bool failed, size_t series,
                         const struct gm_graph *graph, double *points, double range[2])
 {

@@ -72,7 +72,7 @@ static bool is_function(const char *name, size_t length)
 }
 
 /* Returns the length of what stays as it is at this place of a text: a number with its exponent, or the name of
-   a function that is called, whose digits are no index. */
+   a called function, whose digits belong to its name. */
 static size_t kept_length(const char *text, const char *at)
 {
     static const char figures[] = "0123456789";

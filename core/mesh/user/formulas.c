@@ -195,7 +195,7 @@ static const char *own_name(const struct reading *reading, size_t i)
                                                                : NULL;
 }
 
-/* Returns a name for proposals: those of the line, then the parameters. */
+/* Returns a name for proposals: the line's own names, then the parameters. */
 static const char *known(size_t i, const void *data)
 {
     const struct reading *reading = data;
