@@ -254,7 +254,7 @@ static void unwind(struct gm_entries *entries, double t)
     }
 }
 
-/* Whether an entry of a lane is due at time t. */
+/* Returns true if an entry of a lane is due at time t. */
 static bool is_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                    double t)
 {
@@ -314,8 +314,8 @@ static void follow_section(struct gm_entries *entries, const struct gm_track *tr
 }
 
 /* Returns the first step from step k on at which an entry is due, trace->count + 1 without one: what is due then is
-   due at all later ones. Steps are equal but for those of adaptive schemes, so the search begins at the step that the
-   end of the current interval falls into. */
+   due at all later ones. Steps are equal but for those of adaptive schemes, so the search begins at the step that
+   holds the end of the current interval. */
 static int64_t next_due(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                         const struct gm_trace *trace, int64_t k)
 {
