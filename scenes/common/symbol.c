@@ -105,7 +105,8 @@ const char *gm_typeset(struct gm_picture *picture, const char *text)
         size_t taken = kept > 0 ? kept : letters > 0 ? letters : 1;
         const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
         if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&
-            !isalnum((unsigned char)at[1] ? at[2] : 'x')) {
+            !isalnum((unsigned char)at[1] ? at[2] : 'x') &&
+            !(at[2] == '.' && isdigit((unsigned char)at[3]))) {
             put = small_letter(at[1], at[0] == '^');
             taken = put ? 2 : 1;
         } else if (letters == 0 && isdigit((unsigned char)at[0]) && is_in_name(text, at)) {

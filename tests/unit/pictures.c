@@ -334,6 +334,7 @@ static void names_are_typeset(void **state)
         {"log2 + f2(x)", "log₂ + f₂(x)"},
         {"eps0 + lambda12", "ε₀ + λ₁₂"},
         {"x[12] + 3q1e5", "x₁₂ + 3q₁e₅"},
+        {"q^2.5 + q^2.", "q^2.5 + q²."},
     };
     struct gm_picture *picture = gm_picture_open();
     for (size_t i = 0; i < GM_COUNT(texts); i++) {
