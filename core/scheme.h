@@ -72,6 +72,7 @@ struct gm_member_family; /* core/ode/kernel/members.h */
 struct gm_step_limit {
     const char *condition; /* "4/dt^2 >= 4/dx^2 + V''" */
     double square, stiffness;
+    bool helped; /* V'' lengthens the step: square/dt^2 + V'' >= stiffness/dx^2 */
 };
 
 /* A scheme is a row of data. A number at the end of a name is the order. */

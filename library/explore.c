@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/base/arguments.h"
 #include "app/output/row.h"
 #include "app/output/scheme_json.h"
 #include "app/words/names.h"
@@ -92,10 +93,12 @@ static bool complete(struct gm_order *order, const struct gm_session *session, c
         }
         return order->scheme;
     default: {
+        char typed[256];
+        gm_arguments_tell_scene(scene, typed, sizeof typed);
         const char *near = gm_nearest(word, scene->parameter_count, key_at, scene);
         order->row = gm_word_parameter(scene, word);
         return order->row || gm_refuse(message, "there is no parameter \"%.60s\"; %s%s", word,
-                                       near ? "did you mean " : "geomint_view lists them", near ? near : "");
+                                       near ? "did you mean " : "see geomint list ", near ? near : typed);
     }
     }
 }

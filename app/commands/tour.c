@@ -66,6 +66,9 @@ static int list_steps(const struct gm_tour *tour)
         if (step->show) {
             printf("   %-7s geomint %s\n", "shows", step->show);
         }
+        for (size_t k = 0; k < step->change_count; k++) {
+            print_text("at", step->changes[k].line);
+        }
     }
     return GM_EXIT_OK;
 }

@@ -208,7 +208,8 @@ static void read_change(const struct reader *reader, const struct entry *entry,
     const struct gm_arguments *words = gm_arguments_of(reader->arena, entry->text);
     char *const *list = words->words;
     const int count = words->count;
-    struct gm_tour_change change = {.lane = GM_EVERY_LANE};
+    struct gm_tour_change change = {.lane = GM_EVERY_LANE,
+                                    .line = gm_arena_print(reader->arena, "%s", entry->text)};
     double lane = NAN;
     const bool has_lane = count == 3 && strncmp(list[1], "lane=", 5) == 0;
     refuse_if(reader,

@@ -18,6 +18,7 @@ struct gm_tour_change {
     double t;
     long lane;  /* a lane's number from 0, or GM_EVERY_LANE */
     char *text; /* "scheme=midpoint", "dt=0.1" */
+    char *line; /* the whole line after "at:" */
 };
 
 /* A condition that a lane must meet at the end of an exercise. */

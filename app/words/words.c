@@ -319,12 +319,12 @@ static bool is_whole(const struct gm_parameter *row, const char *value)
     return row && row->names && !choices;
 }
 
-/* The key that an unknown one probably means, or NULL. */
+/* The key, or the option, that an unknown key probably means; NULL: none. */
 static const char *key_meant(const struct gm_scene *scene, const char *key)
 {
     const struct gm_near *row;
     for (size_t i = 0; (row = gm_near_find(GM_NEAR_KEY, key, i)); i++) {
-        if (known_key(scene, row->meant)) {
+        if (known_key(scene, row->meant) || strncmp(row->meant, "--", 2) == 0) {
             return row->meant;
         }
     }
@@ -388,6 +388,8 @@ static void read_word(struct gm_words *words, const struct gm_scene *scene, cons
     gm_arena_refuse_if(arena, has_orders(word), "\"%.60s\" holds a character that cannot be shown", word);
     struct gm_word *list = new_list(words, gm_arena_print(arena, "%.*s", (int)(equals - word), word));
     if (!known_key(scene, list->key)) {
+        gm_arena_refuse_if(arena, scene->lacking && strcmp(scene->lacking, list->key) == 0, "%s",
+                           scene->lacking_why);
         gm_arena_refuse_if(arena, is_line(list->key), "%.40s: is a line of a system's file, not a key",
                            list->key);
         const char *near = key_meant(scene, list->key);

@@ -1087,7 +1087,22 @@ static struct gm_side side_from(const struct profile *profile)
     return side;
 }
 
-/* Refuses a boundary: flows that do not balance at the last of the outlets, whose flow is one too many. */
+/* Returns the place of the last outlet's flow that is given, as a number or by a profile. */
+static size_t last_outflow(const struct gm_room *room)
+{
+    size_t place = GM_ROOM_NOWHERE;
+    for (size_t i = 0; i < room->count; i++) {
+        const struct gm_room_line *line = &room->lines[i];
+        const size_t flow = line->value[GM_ROOM_FLOW].place, speed = line->value[GM_ROOM_SPEED].place;
+        if (line->word == GM_ROOM_OUTLET && (flow != 0 || speed != 0)) {
+            place = flow != 0 ? flow : speed;
+        }
+    }
+    return place;
+}
+
+/* Refuses a boundary. Flows that do not balance, and outlets that take too much, are refused at the last outlet
+   whose flow is given. */
 _Noreturn static void refuse_boundary(const struct gm_room *room, const struct gm_flow *flow,
                                       enum gm_boundary_fault fault)
 {
@@ -1104,15 +1119,12 @@ _Noreturn static void refuse_boundary(const struct gm_room *room, const struct g
         [GM_BOUNDARY_OVERFLOW] = "what enters or leaves is too much for a number",
     };
     if (fault != GM_BOUNDARY_UNBALANCED) {
-        gm_system_refuse(&room->system,
-                         flow->faulty > 0 ? room->lines[flow->faulty - 1].place : GM_ROOM_NOWHERE, "%s",
+        const size_t own = flow->faulty > 0 ? room->lines[flow->faulty - 1].place : GM_ROOM_NOWHERE;
+        gm_system_refuse(&room->system, fault == GM_BOUNDARY_BACKWARDS ? last_outflow(room) : own, "%s",
                          sentences[fault]);
     }
+    const size_t place = last_outflow(room);
     double in = 0, out = 0;
-    size_t place = 0;
-    for (size_t i = 0; i < room->count; i++) {
-        place = room->lines[i].word == GM_ROOM_OUTLET ? room->lines[i].value[GM_ROOM_FLOW].place : place;
-    }
     for (size_t i = 0; i < flow->openings; i++) {
         *(flow->opening[i].inlet ? &in : &out) += flow->opening[i].flow;
     }

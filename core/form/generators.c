@@ -461,18 +461,40 @@ static struct gm_rectangle rectangle_of(enum which which, const double *number, 
                                  .irregular = count > 4 ? number[4] : 0};
 }
 
+/* Refuses the strips of a rectangle with the numbers of them that make acute triangles. */
+static bool refuse_strips(const struct gm_rectangle *rectangle, size_t place, struct gm_fault *fault)
+{
+    long least = 0, most = 0;
+    struct gm_rectangle other = *rectangle;
+    for (other.strips = 2; other.strips <= generators[RECTANGLE].highest; other.strips += 2) {
+        if (gm_rectangle_is_acute(&other)) {
+            least = least > 0 ? least : other.strips;
+            most = other.strips;
+        }
+    }
+    if (least == 0) {
+        return gm_fail(
+            fault, place,
+            "mesh: rectangle: %ld edges and %ld strips do not make acute triangles; with %ld strips it "
+            "takes about %ld edges",
+            rectangle->edges, rectangle->strips, rectangle->strips, gm_rectangle_edges(rectangle));
+    }
+    return gm_fail(fault, place, "mesh: rectangle: with %ld edges it takes %ld to %ld strips, not %ld",
+                   rectangle->edges, least, most, rectangle->strips);
+}
+
 bool gm_generator_check(const char *word, const double *number, size_t count, size_t place,
                         struct gm_fault *fault)
 {
     const enum which which = which_of(word);
     if (which == GENERATORS) {
         return gm_fail(fault, place,
-                       "there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
+                       "mesh: there is no mesh %.40s: rectangle W H N, flat-torus W H N, disc R n, "
                        "annulus R1 R2 N, sphere R level, torus R r N and strip L n are made",
                        word);
     }
     if (count < generators[which].least || count > generators[which].most) {
-        return gm_fail(fault, place, "a mesh %s has the numbers %s", word, generators[which].numbers);
+        return gm_fail(fault, place, "mesh: %s has the numbers %s", word, generators[which].numbers);
     }
     for (size_t i = 0; i < count && i < 4; i++) {
         const long lowest = generators[which].lowest, highest = generators[which].highest;
@@ -484,8 +506,10 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         const bool best = i == generators[which].rows && number[i] == 0 && generators[which].even;
         if (whole && !best &&
             !(number[i] == floor(number[i]) && number[i] >= (double)lowest && number[i] <= (double)highest)) {
-            return gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
-                           number[i], lowest, highest);
+            const bool within = number[i] > (double)lowest && number[i] < (double)highest;
+            return within ? gm_fail(fault, place, "mesh: %s: %g is not a whole number", word, number[i])
+                          : gm_fail(fault, place, "mesh: %s: %g is not a whole number from %ld to %ld", word,
+                                    number[i], lowest, highest);
         }
     }
     if (count > 4 && !(number[4] >= 0 && number[4] < 0.5)) {
@@ -510,10 +534,7 @@ bool gm_generator_check(const char *word, const double *number, size_t count, si
         return true;
     }
     const struct gm_rectangle pattern = rectangle_of(which, number, count);
-    return gm_rectangle_is_acute(&pattern) ||
-           gm_fail(fault, place,
-                   "mesh: rectangle: %ld strips are not between half the width of an edge and all of it",
-                   rows);
+    return gm_rectangle_is_acute(&pattern) || refuse_strips(&pattern, place, fault);
 }
 
 /* The mesh while it is made. */

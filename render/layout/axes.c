@@ -2,6 +2,7 @@
 /* One panel of a layout: the room for its texts, then its box and its axes. */
 #include "render/layout/panel.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -344,6 +345,33 @@ static void find_beyond(const struct gm_picture *picture, const struct gm_mark *
     }
 }
 
+/* Returns true for "θ" or "|u|", which has no two letters in a row. */
+static bool is_symbol(const char *text)
+{
+    size_t i = 0;
+    while (text[i] != '\0' && !(isalpha((unsigned char)text[i]) && isalpha((unsigned char)text[i + 1]))) {
+        i++;
+    }
+    return i > 0 && text[i] == '\0';
+}
+
+/* Returns the label of a colour bar for this height, and its size: whole or its front, else smaller, else the
+   symbol at its end, else cut. Without it the colours have no meaning. */
+static const char *bar_label(struct gm_label_list *list, const char *text, double height,
+                             enum gm_text_size *size)
+{
+    *size = GM_TEXT_LABEL;
+    const char *whole = gm_labels_whole(list, GM_TEXT_LABEL, text, height);
+    if (!has(text) || has(whole)) {
+        return whole;
+    }
+    *size = GM_TEXT_TICK;
+    const char *last = strrchr(text, ' ');
+    const bool cut = gm_labels_width(list, GM_TEXT_TICK, text) > height;
+    return gm_labels_shorten(list, GM_TEXT_TICK, cut && last && is_symbol(last + 1) ? last + 1 : text,
+                             height);
+}
+
 static void place_colour_bar(struct gm_label_list *list, struct gm_axes *axes, const struct gm_mark *field)
 {
     const double scale = list->metrics->scale;
@@ -365,11 +393,11 @@ static void place_colour_bar(struct gm_label_list *list, struct gm_axes *axes, c
         place_ticks(list, &axis, bar->y + bar->height - factor * axis.low, factor, false, axes->bar_ticks);
     const double right = axes->colour_bar.x + axes->colour_bar.width + tick_gap * scale;
     label_ticks(list, axes->bar_ticks, axes->bar_tick_count, false, right, GM_ANCHOR_LEFT);
-    gm_labels_add(list,
-                  (struct gm_label){gm_labels_whole(list, GM_TEXT_LABEL, panel->colour_bar_label, box.height),
-                                    GM_TEXT_LABEL, GM_INK,
-                                    right + widest_tick(list, &axis, false) + label_gap * scale,
-                                    box.y + 0.5 * box.height, .anchor = GM_ANCHOR_CENTRE, .vertical = true});
+    enum gm_text_size size;
+    const char *label = bar_label(list, panel->colour_bar_label, box.height, &size);
+    gm_labels_add(list, (struct gm_label){
+                            label, size, GM_INK, right + widest_tick(list, &axis, false) + label_gap * scale,
+                            box.y + 0.5 * box.height, .anchor = GM_ANCHOR_CENTRE, .vertical = true});
 }
 
 void gm_axes_fill(struct gm_label_list *list, struct gm_axes *axes, const struct gm_panel *panel,

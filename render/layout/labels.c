@@ -99,8 +99,9 @@ static const char *whole_front(const struct gm_label_list *list, enum gm_text_si
     const char *longest = NULL;
     for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
         for (const char *at = strstr(text, breaks[i].text); at; at = strstr(at + 1, breaks[i].text)) {
-            const char *front =
-                gm_picture_text(list->picture, "%.*s", (int)((size_t)(at - text) + breaks[i].kept), text);
+            size_t length = (size_t)(at - text) + breaks[i].kept;
+            length -= length > 0 && text[length - 1] == ','; /* nothing follows it */
+            const char *front = gm_picture_text(list->picture, "%.*s", (int)length, text);
             const double wide = gm_labels_width(list, size, front);
             if (*front != '\0' && !is_between(front, *at) && is_closed(front) && wide <= width &&
                 (breaks[i].short_too || wide >= least) && (!longest || strlen(front) > strlen(longest))) {

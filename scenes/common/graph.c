@@ -504,27 +504,68 @@ static size_t curve_of(const struct gm_lane *lane, size_t series, const struct g
     return made;
 }
 
+/* Widens a range to the curves of the lanes that have failed, or of the others. On axes that are not logarithmic
+   values of failed lanes far beyond the others are left out: beside a blow-up the others would be flat. Returns
+   true if all values are exactly 0. */
+static bool hold_curves(const struct gm_lane *const *lanes, size_t count, bool failed, size_t series,
+                        const struct gm_graph *graph, double *points, double range[2])
+{
+    const bool all = !failed || graph->scale == GM_LOG || range[0] > range[1];
+    const double reach = fmax(range[1] - range[0], 0.1 * fmax(fabs(range[0]), fabs(range[1]))),
+                 lowest = all ? -INFINITY : range[0] - reach, highest = all ? INFINITY : range[1] + reach;
+    bool exact = true;
+    for (size_t i = 0; i < count; i++) {
+        if ((lanes[i]->run->status != GM_OK) != failed) {
+            continue;
+        }
+        const size_t made = curve_of(lanes[i], series, graph, points);
+        exact = exact && made > 1;
+        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
+        for (size_t k = 0; k < made; k++) {
+            const double value = points[2 * k + 1];
+            exact = exact && value == 0;
+            if ((graph->scale != GM_LOG || value > 0) && value >= lowest && value <= highest) {
+                gm_range_add(&range[0], &range[1], fmin(value, most));
+            }
+        }
+    }
+    return exact;
+}
+
 /* Gives the panel the range of all curves. Returns true if all are exactly 0, which has no logarithm. */
 static bool set_value_axis(struct gm_panel *panel, const struct gm_lane *const *lanes, size_t count,
                            size_t series, const struct gm_graph *graph, double *points)
 {
     const bool calm = graph->calm_low != graph->calm_high;
-    double low = calm ? graph->calm_low : 1, high = calm ? graph->calm_high : 0;
-    bool exact = lanes[0]->scene->observables[series].error;
-    for (size_t i = 0; i < count; i++) {
-        const size_t made = curve_of(lanes[i], series, graph, points);
-        exact = exact && made > 1;
-        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
-        for (size_t k = 0; k < made; k++) {
-            exact = exact && points[2 * k + 1] == 0;
-            if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
-            }
+    double range[2] = {calm ? graph->calm_low : 1, calm ? graph->calm_high : 0};
+    const bool go = hold_curves(lanes, count, false, series, graph, points, range),
+               failed = hold_curves(lanes, count, true, series, graph, points, range);
+    gm_range_round(&range[0], &range[1], graph->scale);
+    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = range[0], .high = range[1]};
+    return lanes[0]->scene->observables[series].error && go && failed;
+}
+
+/* Draws a curve. A value between gaps is a dot, as a line without length is hardly seen. */
+static void put_curve(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                      const double *points, size_t made)
+{
+    double *dots = gm_picture_memory(picture, 2 * (made + 1) * sizeof *dots);
+    size_t count = 0, length = 0;
+    for (size_t k = 0; k <= made; k++) {
+        const double value = k < made ? points[2 * k + 1] : NAN;
+        if (isfinite(value) && (panel->y.scale != GM_LOG || value > 0)) {
+            length++;
+            continue;
         }
+        if (length == 1) {
+            memcpy(dots + 2 * count++, points + 2 * k - 2, 2 * sizeof *dots);
+        }
+        length = 0;
     }
-    gm_range_round(&low, &high, graph->scale);
-    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = low, .high = high};
-    return exact;
+    gm_mark_line(picture, panel, style, points, made, false);
+    if (count > 0) {
+        gm_mark_points(picture, panel, (struct gm_style){style.role, 1, 5, GM_SOLID}, dots, count);
+    }
 }
 
 static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
@@ -536,7 +577,7 @@ static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     for (size_t k = 0; k < made && graph->time_unit > 0; k++) {
         points[2 * k] /= graph->time_unit;
     }
-    gm_mark_line(picture, panel, style, points, made, false);
+    put_curve(picture, panel, style, points, made);
     gm_mark_switches(picture, panel, lane, false);
     if (graph->named) {
         gm_panel_key(picture, panel, style, lane_name(lane));
@@ -613,7 +654,7 @@ static void draw_lane_together(struct gm_picture *picture, const struct gm_walk 
             continue;
         }
         const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
-        gm_mark_line(picture, panel, style, points, made, false);
+        put_curve(picture, panel, style, points, made);
         if (!missing) {
             gm_panel_key(picture, panel, style, together[i].name);
         }

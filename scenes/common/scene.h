@@ -187,6 +187,8 @@ struct gm_scene {
     const char *mark;   /* name with a checksum of the text; NULL: the name suffices */
     const struct gm_parameter *parameters;
     size_t parameter_count;
+    /* A key that this problem has with other schemes alone, and the sentence on why; NULL: none. */
+    const char *lacking, *lacking_why;
     const char *const *schemes; /* preferred order, NULL-terminated; others may fit */
     /* Schemes that replace the first of `schemes` if a word such as "show=frame" is typed and no scheme; ends
        with a NULL row. NULL: none. */

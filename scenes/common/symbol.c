@@ -49,24 +49,67 @@ static const char *small_letter(char letter, bool above)
     return NULL;
 }
 
+/* Returns true if the digits before a place follow a letter. */
+static bool is_in_name(const char *text, const char *at)
+{
+    while (at > text && isdigit((unsigned char)at[-1])) {
+        at--;
+    }
+    return at > text && isalpha((unsigned char)at[-1]);
+}
+
+static bool is_function(const char *name, size_t length)
+{
+    static const char *const names[] = {
+#define GM_FUNCTION(name, arity) #name,
+#include "core/functions/functions.def"
+    };
+    size_t i = 0;
+    while (i < GM_COUNT(names) && !(strlen(names[i]) == length && memcmp(names[i], name, length) == 0)) {
+        i++;
+    }
+    return i < GM_COUNT(names);
+}
+
+/* Returns the length of what stays as it is at this place of a text: a number with its exponent, or the name of
+   a called function, whose digits belong to its name. */
+static size_t kept_length(const char *text, const char *at)
+{
+    static const char figures[] = "0123456789";
+    size_t length = 0;
+    if (isalpha((unsigned char)at[0])) {
+        while (isalnum((unsigned char)at[length])) {
+            length++;
+        }
+        return at[length] == '(' && is_function(at, length) ? length : 0;
+    }
+    length = is_in_name(text, at) ? 0 : strspn(at, figures);
+    if (length > 0 && (at[length] == 'e' || at[length] == 'E')) {
+        const size_t power = strspn(at + length + 1, figures);
+        length += power > 0 ? 1 + power : 0;
+    }
+    return length;
+}
+
 const char *gm_typeset(struct gm_picture *picture, const char *text)
 {
     const size_t size = 4 * strlen(text) + 1;
     char *typed = gm_picture_memory(picture, size), *to = typed;
     for (const char *at = text; *at;) {
         size_t letters = 0;
+        const size_t kept = kept_length(text, at);
         while (isalpha((unsigned char)at[letters])) {
             letters++;
         }
-        const char *put = letters > 0 ? greek(at, letters) : NULL;
-        size_t taken = letters > 0 ? letters : 1;
+        const char *put = letters > 0 && kept == 0 ? greek(at, letters) : NULL;
+        size_t taken = kept > 0 ? kept : letters > 0 ? letters : 1;
         const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
         if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&
-            !isalnum((unsigned char)at[1] ? at[2] : 'x')) {
+            !isalnum((unsigned char)at[1] ? at[2] : 'x') &&
+            !(at[2] == '.' && isdigit((unsigned char)at[3]))) {
             put = small_letter(at[1], at[0] == '^');
             taken = put ? 2 : 1;
-        } else if (letters == 0 && isdigit((unsigned char)at[0]) && at > text &&
-                   isalpha((unsigned char)at[-1])) {
+        } else if (letters == 0 && isdigit((unsigned char)at[0]) && is_in_name(text, at)) {
             put = small_letter(at[0], false);
         } else if (at[0] == '[') {
             const size_t digits = strspn(at + 1, "0123456789");

@@ -417,6 +417,8 @@ static void make(struct gm_system_making *making)
                            .work = &of_file->work,
                            .asked = law,
                            .asked_count = by_matrices ? GM_COUNT(law) : 0,
+                           .lacking = kind->no_walls ? "boundary" : NULL,
+                           .lacking_why = kind->no_walls,
                            .preferences = kind->preferences,
                            .t0 = gm_field_t0,
                            .idle = idle,

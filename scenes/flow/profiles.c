@@ -71,7 +71,11 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
             }
         }
     }
-    if (!known) {
+    if (known) { /* the lanes lie around it */
+        const double margin = 0.1 * (value.high - value.low);
+        value.low -= margin;
+        value.high += margin;
+    } else {
         gm_range_round(&value.low, &value.high, GM_LINEAR);
     }
     if (!isnan(profile->low)) {

@@ -195,26 +195,59 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     panel->colour_bar_label = painted.vector ? gm_picture_text(picture, "|%s|", name) : name;
 }
 
-/* The range of the colours of all lanes, now and, so that colours stay, at the start: round, and symmetric
-   with both signs. */
+static double most_of(const double range[2])
+{
+    return fmax(fabs(range[0]), fabs(range[1]));
+}
+
+/* Widens a range to the values of the form that a view shows. */
+static void hold(struct gm_picture *picture, const struct gm_view *view, double range[2])
+{
+    const size_t corners = 3 * gm_form_space_of(view->problem)->complex->triangles;
+    const struct painted painted = paint(picture, view);
+    for (size_t k = 0; k < corners; k++) { /* NaN fails both */
+        range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
+        range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];
+    }
+    range[0] = painted.vector ? 0 : range[0];
+}
+
+/* A lane whose values are this much larger than those of another, and of the start, has blown up or soon will:
+   it does not set the colours of all. */
+static const double farthest = 100;
+
+/* Writes the least and the greatest value of all lanes, now and, so that colours stay, at the start. */
+static void find_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        double range[2])
+{
+    double(*now)[2] = gm_picture_memory(picture, count * sizeof *now), least = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        struct gm_view view = gm_lane_view(lanes[i]);
+        now[i][0] = INFINITY;
+        now[i][1] = -INFINITY;
+        hold(picture, &view, now[i]);
+        least = fmin(least, most_of(now[i]));
+        view.state = view.start;
+        view.t = view.t0;
+        hold(picture, &view, range);
+    }
+    least = isfinite(most_of(range)) ? fmax(least, most_of(range)) : least;
+    for (size_t i = 0; i < count; i++) {
+        if (most_of(now[i]) <= farthest * least) {
+            range[0] = fmin(range[0], now[i][0]);
+            range[1] = fmax(range[1], now[i][1]);
+        }
+    }
+}
+
+/* The range of the colours of all lanes: round, and symmetric with both signs. */
 static void find_range(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        double range[2])
 {
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    for (size_t i = 0; i < 2 * count; i++) {
-        struct gm_view view = gm_lane_view(lanes[i / 2]);
-        view.state = i % 2 ? view.state : view.start;
-        view.t = i % 2 ? view.t : view.t0;
-        const size_t corners = 3 * gm_form_space_of(view.problem)->complex->triangles;
-        const struct painted painted = paint(picture, &view);
-        for (size_t k = 0; k < corners; k++) { /* NaN fails both */
-            range[0] = painted.value[k] < range[0] ? painted.value[k] : range[0];
-            range[1] = painted.value[k] > range[1] ? painted.value[k] : range[1];
-        }
-        range[0] = painted.vector ? 0 : range[0];
-    }
-    const double most = fmax(fabs(range[0]), fabs(range[1]));
+    find_values(picture, lanes, count, range);
+    const double most = most_of(range);
     if (range[1] - range[0] <= 1e-12 * most || !isfinite(most)) { /* a constant */
         range[0] = isfinite(most) ? range[0] - 1 : 0;
         range[1] = range[0] + 2;

@@ -39,6 +39,7 @@ refused 1 'did you mean explicit-euler$' run disc scheme=explicit-eulr
 refused 1 'did you mean kepler$' keplar
 refused 1 'did you mean --theme$' render disc --thm
 refused 1 '"nope"; see geomint --help$' nope
+refused 1 'no parameter "title"; did you mean --title$' render disc title=foo
 refused 1 'no option --vtk; there are --json, --state, --max, --csv' run disc --vtk a
 refused 1 'no ending of .npz, .csv, .pvd, .xdmf' run disc --save=a.hdf5
 refused 1 '.pvd has a .vtu file for each row' run disc --save=a.vtu

@@ -11,6 +11,8 @@ set -u
     fail 'phi4: the longest step is not told'
 "$geomint" run phi4 scheme=leapfrog dt=0.11 until=1000 half_length=40 points=800 --json >out 2>err
 [ $? = 2 ] && grep -q 'beyond 0.0997.*, the limit of linear theory' out || fail "phi4 beyond the limit: $(cat out err)"
+"$geomint" run sine-gordon scheme=energy-conserving dt=0.06 until=6 >out 2>err
+grep -q "beyond 0.05002, the limit of linear theory 4/dt^2 + V'' >= 4/dx^2" out || fail "energy-conserving beyond the limit: $(cat out err)"
 "$geomint" run klein-gordon V=0 steps=1 --json >out 2>err || fail "klein-gordon V=0: $(cat err)"
 "$geomint" run double-sine-gordon half_length=1 2>err
 [ $? = 1 ] && grep -q 'ring' err || fail "double-sine-gordon on a short ring: $(cat err)"

@@ -214,9 +214,9 @@ REFUSED = [
     (WAVE, "sphere 1 2", "torus 1 2 20", "its radius 1 has to be above that of its tube, 2"),
     (WAVE, "sphere 1 2", "torus 2 1 20 7", "not an even number"),
     (WAVE, "sphere 1 2", "annulus 2 1 20", "its outer radius 1 has to be above the inner one 2"),
-    (WAVE, "sphere 1 2", "cube 1", "there is no mesh cube"),
+    (WAVE, "sphere 1 2", "cube 1", "2:7: mesh: there is no mesh cube"),
     (WAVE, "sphere 1 2", "sphere; width 2", "2:21: a mesh has at most five numbers, and a rectangle alone names them"),
-    (WAVE, "sphere 1 2", "disc 1", "a mesh disc has the numbers R n"),
+    (WAVE, "sphere 1 2", "disc 1", "2:7: mesh: disc has the numbers R n"),
     (WAVE, "sphere 1 2", "annulus 1 2 12\nstar: circumcentric", "and its least star entry is -"),
     (WAVE, "sphere 1 2", "sphere 1 2\nstar: round", "3:7: star: is auto, circumcentric"),
     (STEADY, "equation: u; -laplace(u) = x*y\n", "", "3:10: u has no equation"),
@@ -522,6 +522,9 @@ for words, sentence in (
         (["form-cochain", "n=60", "show=mesh"], "this mesh has 243: take a coarser one"),
         (["form-poisson", "numbers=yes", "level=2"], "this mesh has 962"),
         (["form-maxwell", "elevation=3"], "the mesh is in the plane"),
+        (["form-age", "N=48"], "rectangle: with 48 edges it takes 18 to 30 strips, not 10"),
+        (["form-age", "mesh=rectangle 1 0.1 4"], "with 2 strips it takes about 15 edges"),
+        (["form-wave", "level=2.5"], "mesh: sphere: 2.5 is not a whole number\n"),
         (["form-cochain", "n=61"], "60"), (["form-heat", "mesh=strip 1 0"], "0 is not a whole number from 1 to 4000")):
     status, out, err = run(words)
     check(status == 1 and sentence in err and out == "", f"{words} exits {status}: {out}{err}  not: {sentence}")

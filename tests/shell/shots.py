@@ -361,11 +361,16 @@ def drive():
     has("t = [−]?0", words, turned)
 
 
+def counts():
+    """A whole number is written in full."""
+    has(r"edges +2352 +2352", "form-cahn-hilliard", "SPACE", 100, 30)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for part in (files, refusals, footer, levels, quitting, hints, pages, labels, values, undoing, movies, aliases,
-                     names_of_keys, lists, ranges, portraits, invariants, notices, drive):
+                     names_of_keys, lists, ranges, portraits, invariants, notices, counts, drive):
             part()
         os.chdir("/")
     print("shots: all passed" if not faults else f"shots: {faults} faults")

@@ -37,6 +37,7 @@ for file in "$tours"/*.tour; do
     fi
     "$geomint" tour "$name" --list >text || fail "$name: --list"
     [ "$(grep -cE '^[0-9]+\. ' text)" = "$steps" ] || fail "$name: --list has other steps"
+    [ "$(grep -cE '^   at ' text)" = "$(grep -c '^at:' "$file")" ] || fail "$name: --list has other changes"
     turn $number "$which" || continue
     timeout 600 "$geomint" tour "$name" --out pages --size 480x300 2>err || fail "$name: $(cat err)"
     [ "$(find pages -name "$name-??.png" | wc -l)" = "$steps" ] || fail "$name: not a picture a step"

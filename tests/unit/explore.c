@@ -198,6 +198,7 @@ static void parameters_are_set(void **unused)
     good(geomint_set(lab, 0, "eccentricity", NULL), lab);
     assert_null(strstr(geomint_view(lab), "\"eccentricity\",\"value\":\"0.25\""));
     expect(geomint_set(lab, 0, "eccentricty", "0.5"), lab, GEOMINT_USAGE, "did you mean eccentricity");
+    expect(geomint_set(lab, 0, "foo", "1"), lab, GEOMINT_USAGE, "\"foo\"; see geomint list kepler");
     expect(geomint_set(lab, 0, "eccentricity", "2"), lab, GEOMINT_USAGE, "out of range");
     char longest[400]; /* 0.100...e1, which is not 0.1 */
     snprintf(longest, sizeof longest, "0.1%0300de1", 0);

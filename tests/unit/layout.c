@@ -433,6 +433,11 @@ static void numbers_are_whole(void **state)
     const char *const levels = "shapes every step;  grey: the circle of radius 1";
     const double narrow = letters_width(metrics.self, GM_TEXT_LABEL, "shapes every step;  grey: the circle");
     assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, levels, narrow), "shapes every step");
+    /* nor the comma before what is left out */
+    const char *const mesh = "736 triangles, circumcentric star ≥ 0.056,  Δt = 0.005";
+    const double short_of_step = letters_width(metrics.self, GM_TEXT_LABEL, mesh) - 1;
+    assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, mesh, short_of_step),
+                        "736 triangles, circumcentric star ≥ 0.056");
     gm_picture_close(picture);
 }
 
@@ -670,6 +675,28 @@ static void bars_point_at_what_is_beyond(void **state)
     }
 }
 
+/* A colour bar that is too short for its label has it smaller, or the symbol alone. */
+static void short_bars_say_what_they_show(void **state)
+{
+    (void)state;
+    size_t symbols = 0;
+    for (double height = 40; height <= 720; height *= 1.1) {
+        struct gm_metrics metrics = metrics_of(1280, height);
+        metrics.self = &metrics;
+        struct gm_picture *picture = picture_of(1, 0, true, false);
+        picture->first->colour_bar = true;
+        picture->first->colour_bar_label = "temperature θ";
+        gm_mark_image(picture, picture->first, GM_MAP_SEQUENTIAL, 0, 1, (const double[]){-2, -1.5, 2, 1.5},
+                      (const double[]){0, 0.5, 1, 1}, 2, 2);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        const bool bar = layout && layout->frame_count > 0 && layout->frames[0].bar_tick_count > 0;
+        assert_true(!bar || find_label(layout, "θ"));
+        symbols += bar && !find_label(layout, "temperature");
+        gm_picture_close(picture);
+    }
+    assert_true(symbols > 0);
+}
+
 /* A note that is wider than the frame is broken where both lines end within the surface, if it can be: not where they
    would fit into the frame from its left end. */
 static void notes_are_broken_beside_their_place(void **unused)
@@ -725,6 +752,7 @@ int main(void)
         cmocka_unit_test(names_keep_off_the_axes),
         cmocka_unit_test(bars_point_at_what_is_beyond),
         cmocka_unit_test(notes_stay_in_their_frame),
+        cmocka_unit_test(short_bars_say_what_they_show),
         cmocka_unit_test(notes_are_broken_beside_their_place),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
         cmocka_unit_test(a_bar_of_one_panel_keeps_off_the_next),

@@ -15,6 +15,7 @@
 #include "app/words/request.h"
 #include "core/basics.h"
 #include "scenes/common/graph.h"
+#include "scenes/common/symbol.h"
 #include "scenes/flow/room_scene.h"
 #include "scenes/mesh/observed.h"
 #include "tests/common/layout_faults.h"
@@ -319,6 +320,82 @@ static void residuals_have_colours_of_their_own(void **state)
     close_drawn(&drawn);
 }
 
+/* Digits at the end of a name are its index; those of a number and of a function that is called are none. */
+static void names_are_typeset(void **state)
+{
+    (void)state;
+    static const char *const texts[][2] = {
+        {"p_x^2 - 2*q1", "pₓ² − 2 q₁"},
+        {"q10 + q101", "q₁₀ + q₁₀₁"},
+        {"1e12 + 1.5E12", "1e12 + 1.5E12"},
+        {"1e-12*x2", "1e−12 x₂"},
+        {"log10(q) + log1p(q)", "log10(q) + log1p(q)"},
+        {"atan2(y1, x1) + log2(2)", "atan2(y₁, x₁) + log2(2)"},
+        {"log2 + f2(x)", "log₂ + f₂(x)"},
+        {"eps0 + lambda12", "ε₀ + λ₁₂"},
+        {"x[12] + 3q1e5", "x₁₂ + 3q₁e₅"},
+        {"q^2.5 + q^2.", "q^2.5 + q²."},
+    };
+    struct gm_picture *picture = gm_picture_open();
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        assert_string_equal(gm_typeset(picture, texts[i][0]), texts[i][1]);
+    }
+    gm_picture_close(picture);
+}
+
+/* The marks of a panel of one kind in the colours of lanes. */
+static size_t marks_of(const struct gm_panel *panel, enum gm_mark_kind kind)
+{
+    size_t count = 0;
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        count += mark->kind == kind && mark->style.role >= GM_LANE;
+    }
+    return count;
+}
+
+/* A few points of a flow are a line, those of a map are not; the only value of a graph is a dot. */
+static void few_steps_are_seen(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("system H=p^2/2+q^2/2 q=1 p=0 scheme=verlet dt=.1", 30, &drawn);
+    assert_true(marks_of(panel_titled(drawn.picture, "Verlet"), GM_MARK_LINE) > 0);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "Verlet"), GM_MARK_POINTS), 1);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "energy error"), GM_MARK_POINTS), 0);
+    close_drawn(&drawn);
+    open_drawn("kicked-rotor scheme=verlet", 30, &drawn);
+    const struct gm_panel *panel = panel_titled(drawn.picture, "Verlet");
+    assert_int_equal(marks_of(panel, GM_MARK_LINE), 0);
+    assert_int_equal(marks_of(panel, GM_MARK_POINTS), 2);
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        assert_true(mark->kind != GM_MARK_POINTS || mark->style.alpha > .5);
+    }
+    close_drawn(&drawn);
+    open_drawn("system H=p^2/2+q^2/2 q=1 p=0 scheme=verlet dt=.1", 1, &drawn);
+    assert_int_equal(marks_of(panel_titled(drawn.picture, "energy error"), GM_MARK_POINTS), 1);
+    close_drawn(&drawn);
+}
+
+/* A lane that has blown up does not set the colours and the linear graphs of all. */
+static void a_blow_up_hides_no_lane(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("form-wave level=2 scheme=verlet,midpoint dt=0.4", 30, &drawn);
+    assert_int_equal(drawn.lanes[0]->run->status, GM_BLOW_UP);
+    for (const struct gm_panel *panel = drawn.picture->first; panel; panel = panel->next) {
+        for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+            if (mark->kind == GM_MARK_MESH) {
+                assert_true(mark->high <= 1 && mark->low == -mark->high);
+                assert_true(strcmp(panel->title, "midpoint") == 0 || (mark->below && mark->above));
+            }
+        }
+    }
+    const struct gm_panel *mean = panel_titled(drawn.picture, "mean");
+    assert_true(mean->y.low > -1e-12 && mean->y.high < 1e-12);
+    close_drawn(&drawn);
+}
+
 /* The graph of the cell's volume ends where it does, not at the end of the run. */
 static void the_volume_fills_its_graph(void **state)
 {
@@ -584,6 +661,9 @@ int main(void)
         cmocka_unit_test(who_runs_away_leaves_the_scale),
         cmocka_unit_test(the_pendulum_goes_around),
         cmocka_unit_test(residuals_have_colours_of_their_own),
+        cmocka_unit_test(names_are_typeset),
+        cmocka_unit_test(few_steps_are_seen),
+        cmocka_unit_test(a_blow_up_hides_no_lane),
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
         cmocka_unit_test(graphs_say_what_they_show),

@@ -448,7 +448,9 @@ static void short_number(double value, char *text, size_t size)
         snprintf(text, size, "–");
         return;
     }
-    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter than with its zeros */
+    if (fabs(value) < 1e6 && value == floor(value)) { /* a count is not rounded */
+        snprintf(digits, sizeof digits, "%.0f", value);
+    } else if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter than with its zeros */
         snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
     } else {
         snprintf(digits, sizeof digits, "%.3g", value);

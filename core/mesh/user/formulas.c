@@ -104,10 +104,22 @@ static size_t first_input(const struct reading *reading)
     return reading->line == &density_line && reading->names->wave->system->alone ? PLACE : 0;
 }
 
+const char *const gm_user_densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
+
+static const char *const named[] = {
+    "sqrt(1 + alpha^2*u_x^2)",
+    "sqrt(sqrt(1 + (bend*alpha^2*V_u)^2))",
+    "sqrt(alpha^2*u_x^2/2 + sqrt(1 + (bend*alpha^2*V_u/2)^2))",
+    "sqrt(1 + alpha^2*u_x^2/(1 + (u_x/steepest)^2))",
+    "sqrt(1 + 2*alpha^2*u_x^2/(1 + sqrt(1 + (u_x/steepest)^2)))",
+};
+
+/* The names that all lines but the map have besides their inputs. */
+static const char *const own_words[] = {"alpha", "steepest", "bend", "V_u"};
+
 /* Returns the meaning of a name that the line has of its own, whatever the field is called, or GM_NO_NODE. */
 static gm_node_id find_own(struct reading *reading, const struct gm_name *name)
 {
-    static const char *const words[] = {"alpha", "steepest", "bend", "V_u"};
     for (size_t k = first_input(reading); reading->line->inputs[k]; k++) {
         if (is_called(name, reading->line->inputs[k])) {
             return gm_formula_variable(&reading->graph, k);
@@ -116,10 +128,10 @@ static gm_node_id find_own(struct reading *reading, const struct gm_name *name)
     const struct gm_mesh_names *names = reading->names;
     const double values[] = {names->alpha, names->steepest, names->bend};
     size_t i = 0;
-    while (i < GM_COUNT(words) && !is_called(name, words[i])) {
+    while (i < GM_COUNT(own_words) && !is_called(name, own_words[i])) {
         i++;
     }
-    if (reading->line == &map_line || i == GM_COUNT(words)) {
+    if (reading->line == &map_line || i == GM_COUNT(own_words)) {
         return GM_NO_NODE;
     }
     return i < GM_COUNT(values) ? gm_formula_constant(&reading->graph, values[i])
@@ -163,20 +175,38 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
-/* Returns a name for proposals: the inputs of the line, then the parameters. */
-static const char *known(size_t i, const void *data)
+/* Returns a name that the line has of its own, for proposals: its inputs, its words, and a density's, which is the
+   whole text; NULL after the last. */
+static const char *own_name(const struct reading *reading, size_t i)
 {
-    const struct reading *reading = data;
-    const struct gm_user_system *system = reading->names->wave->system;
+    const bool density = reading->line == &density_line, alone = first_input(reading) > 0,
+               word = density && strspn(reading->text, "abcdefghijklmnopqrstuvwxyz") == strlen(reading->text);
     const char *const *inputs = reading->line->inputs + first_input(reading);
     size_t count = 0;
     while (inputs[count] && count < i) {
         count++;
     }
+    if (inputs[count] || alone || reading->line == &map_line) {
+        return inputs[count];
+    }
+    i -= count;
+    return i < GM_COUNT(own_words)                             ? own_words[i]
+           : word && i < GM_COUNT(own_words) + GM_COUNT(named) ? gm_user_densities[i - GM_COUNT(own_words)]
+                                                               : NULL;
+}
+
+/* Returns a name for proposals: the line's own names, then the parameters. */
+static const char *known(size_t i, const void *data)
+{
+    const struct reading *reading = data;
+    const struct gm_user_system *system = reading->names->wave->system;
+    size_t count = 0;
+    while (count < i && own_name(reading, count)) {
+        count++;
+    }
+    const char *own = own_name(reading, count);
     const size_t number = system->parameters + i - count;
-    return inputs[count]                 ? inputs[count]
-           : number < system->velocities ? system->variables[number].name
-                                         : NULL;
+    return own ? own : number < system->velocities ? system->variables[number].name : NULL;
 }
 
 /* Refuses the line with a sentence about byte `offset` of its text. */
@@ -199,10 +229,11 @@ static gm_node_id read_formula(struct reading *reading, struct gm_span span)
         gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, &node, &fault);
     if (!good && fault.sentence[0]) {
         const bool unknown = strstr(fault.sentence, "there is no name ") && !strchr(fault.sentence, ';');
-        const size_t first = first_input(reading);
-        for (size_t k = first, end = strlen(fault.sentence); unknown && reading->line->inputs[k]; k++) {
-            end += (size_t)snprintf(fault.sentence + end, sizeof fault.sentence - end, "%s%s",
-                                    k == first ? "; names are " : ", ", reading->line->inputs[k]);
+        const char *name;
+        for (size_t k = 0; unknown && (name = own_name(reading, k)); k++) {
+            const size_t end = strlen(fault.sentence);
+            snprintf(fault.sentence + end, sizeof fault.sentence - end, "%s%s",
+                     k == 0 ? "; names are " : ", ", name);
         }
         refuse(reading, fault.offset, fault.sentence);
     }
@@ -234,16 +265,6 @@ static void open_tape(const struct reading *reading, struct gm_tape *tape, const
     gm_arena_need(reading->arena,
                   !reading->graph.failed && gm_tape_open(tape, &reading->graph, nodes, count, inputs, NULL));
 }
-
-const char *const gm_user_densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
-
-static const char *const named[] = {
-    "sqrt(1 + alpha^2*u_x^2)",
-    "sqrt(sqrt(1 + (bend*alpha^2*V_u)^2))",
-    "sqrt(alpha^2*u_x^2/2 + sqrt(1 + (bend*alpha^2*V_u/2)^2))",
-    "sqrt(1 + alpha^2*u_x^2/(1 + (u_x/steepest)^2))",
-    "sqrt(1 + 2*alpha^2*u_x^2/(1 + sqrt(1 + (u_x/steepest)^2)))",
-};
 
 static void values(const struct gm_density *density, const double *at, double *values, size_t m)
 {

@@ -12,7 +12,8 @@
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4 };
 
-/* A path with a longer mean chord, relative to the panel, is drawn as dots: it is not known between them. */
+/* A path of many points with a longer mean chord, relative to the panel, is drawn as dots: it is not known
+   between them. */
 static const double longest_chord = 0.05;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)
@@ -232,12 +233,12 @@ struct stage {
 };
 
 /* The opacity and width of what moves, in a plane and in space, where the distance fades and thins it. */
-enum { FAINT, BRIGHT, DOTS, RECENT, START, ROD, BODY, BODY_OF_ROD, LOOKS };
+enum { FAINT, BRIGHT, DOTS, FEW_DOTS, RECENT, START, ROD, BODY, BODY_OF_ROD, LOOKS };
 static const struct {
     double alpha, width;
 } looks[2][LOOKS] = {
-    {{0.3, 1.1}, {0.95, 2.2}, {0.25, 1.6}, {0.95, 2}, {0.9, 5}, {0.8, 3}, {1, 10}, {1, 13}},
-    {{0.55, 1.4}, {0.95, 2.6}, {0.4, 1.8}, {0.95, 2.6}, {0.9, 6}, {0.9, 3.6}, {1, 12}, {1, 15}}};
+    {{0.3, 1.1}, {0.95, 2.2}, {0.25, 1.6}, {0.8, 3.6}, {0.95, 2}, {0.9, 5}, {0.8, 3}, {1, 10}, {1, 13}},
+    {{0.55, 1.4}, {0.95, 2.6}, {0.4, 1.8}, {0.8, 4.2}, {0.95, 2.6}, {0.9, 6}, {0.9, 3.6}, {1, 12}, {1, 15}}};
 
 static struct gm_style style_of(const struct stage *stage, enum gm_role role, int look)
 {
@@ -298,24 +299,52 @@ static size_t path_of(const struct gm_path *path, const struct gm_sight *sight, 
     return count;
 }
 
-/* Returns true if chords are short enough to be seen as a curve. */
-static bool is_curve(const struct stage *stage, const double *points, size_t count)
+/* Writes a chord relative to the panel and returns its length; NAN at a jump. */
+static double chord_before(const struct stage *stage, const double *points, size_t i, double chord[3])
 {
     const struct gm_axis *x = &stage->panel->x, *y = &stage->panel->y;
     const size_t dimensions = stage->space ? 3 : 2;
     const double deep = stage->space ? stage->space->front - stage->space->back : 1;
     const double sizes[] = {stage->space ? deep : x->high - x->low, stage->space ? deep : y->high - y->low,
                             deep};
+    double square = 0;
+    chord[2] = 0;
+    for (size_t k = 0; k < dimensions; k++) {
+        chord[k] = (points[dimensions * i + k] - points[dimensions * (i - 1) + k]) / sizes[k];
+        square += chord[k] * chord[k];
+    }
+    return isfinite(square) ? sqrt(square) : NAN;
+}
+
+/* A path of fewer points is drawn as a line if it turns little, else as points that are seen one by one. */
+enum { FEW = 60 };
+
+/* Returns true if no chord turns by more than 30 degrees from the one before, as in a flow with long steps. */
+static bool turns_little(const struct stage *stage, const double *points, size_t count)
+{
+    double before[3] = {0}, length_before = 0;
+    bool little = true;
+    for (size_t i = 1; i < count; i++) {
+        double chord[3];
+        const double length = chord_before(stage, points, i, chord),
+                     along = before[0] * chord[0] + before[1] * chord[1] + before[2] * chord[2];
+        little = little && !(along < 0.866 * length * length_before);
+        memcpy(before, chord, sizeof before);
+        length_before = length;
+    }
+    return little;
+}
+
+/* Returns true if chords are short enough to be seen as a curve. */
+static bool is_dense(const struct stage *stage, const double *points, size_t count)
+{
     double sum = 0;
     size_t chords = 0;
     for (size_t i = 1; i < count; i++) {
-        double square = 0;
-        for (size_t k = 0; k < dimensions; k++) {
-            const double part = (points[dimensions * i + k] - points[dimensions * (i - 1) + k]) / sizes[k];
-            square += part * part;
-        }
-        sum += isfinite(square) ? sqrt(square) : 0;
-        chords += isfinite(square);
+        double chord[3];
+        const double length = chord_before(stage, points, i, chord);
+        sum += isfinite(length) ? length : 0;
+        chords += isfinite(length);
     }
     return chords == 0 || sum < longest_chord * (double)(stage->space ? count : chords);
 }
@@ -350,16 +379,16 @@ static void draw_path(const struct stage *stage, const struct gm_lane *lane, con
     const size_t most = paths->past.count > paths->trail.count ? paths->past.count : paths->trail.count;
     double *points = gm_picture_memory(stage->picture, 3 * (2 * most + 4) * sizeof *points);
     const size_t count = path_of(&paths->past, sight, body, past, now, points);
-    if (is_curve(stage, points, count)) {
+    if (is_dense(stage, points, count) || (count < FEW && turns_little(stage, points, count))) {
         put_line(stage, style_of(stage, role, FAINT), false, points, count);
         const size_t end = path_of(&paths->past, sight, body, bright, now, points);
         put_line(stage, style_of(stage, role, BRIGHT), true, points, end);
         return;
     }
-    put_points(stage, style_of(stage, role, DOTS), points, count);
+    put_points(stage, style_of(stage, role, count < FEW ? FEW_DOTS : DOTS), points, count);
     const size_t trail = trail_from(lane, GM_TRACK_TRAIL), half = paths->trail.count / 2;
     const size_t recent = path_of(&paths->trail, sight, body, trail > half ? trail : half, now, points);
-    if (is_curve(stage, points, recent)) {
+    if (is_dense(stage, points, recent)) {
         put_line(stage, style_of(stage, role, RECENT), true, points, recent);
     }
 }

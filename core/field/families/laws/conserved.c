@@ -85,7 +85,12 @@ double gm_wave_longest_step(const struct gm_problem *problem, const struct gm_sc
     for (size_t i = 0; limit && i < grid->points; i++) {
         most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
     }
-    return limit ? sqrt(limit->square / (limit->stiffness / (grid->dx * grid->dx) + most)) : NAN;
+    if (!limit) {
+        return NAN;
+    }
+    /* beyond the step with the largest V'' the highest mode grows, whichever sign V'' has here */
+    const double sum = limit->stiffness / (grid->dx * grid->dx) + (limit->helped ? -most : most);
+    return sum > 0 ? sqrt(limit->square / sum) : NAN;
 }
 
 bool gm_field_profile(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *u,

@@ -130,13 +130,14 @@ static const struct gm_two_step_row rows[] = {
      .keeps_change = true},
 };
 
-static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", 4, 4};
+static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", 4, 4, false},
+                                  conserving_limit = {"4/dt^2 + V'' >= 4/dx^2", 4, 4, true};
 
 #define OF_LEAPFROG .family = &gm_family_leapfrog, .needs = GM_NEEDS_WAVE
 
 static const struct gm_scheme schemes[] = {
     {GM_TEXTS_leapfrog, OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]},
-    {GM_TEXTS_energy_conserving, OF_LEAPFROG, .coefficients = &rows[1]},
+    {GM_TEXTS_energy_conserving, OF_LEAPFROG, .limit = &conserving_limit, .coefficients = &rows[1]},
     {GM_TEXTS_euler_box_of_waves, OF_LEAPFROG, .limit = &explicit_limit, .coefficients = &rows[0]},
 };
 

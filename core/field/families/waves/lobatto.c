@@ -357,10 +357,10 @@ static const struct gm_lobatto_row rows[] = {
      .drift = {OUTER, OUTER, INNER, OUTER, OUTER}},
 };
 
-static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", 4, 6};
-static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", 8, 6};
+static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", 4, 6, false};
+static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", 8, 6, false};
 /* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
-static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", 7.403702439, 6};
+static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", 7.403702439, 6, false};
 
 #define OF_LOBATTO .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS
 
