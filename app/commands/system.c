@@ -95,7 +95,8 @@ static const char *formula_of(const struct report *report, gm_node_id node, bool
 
 static void print_equation(const struct report *report, const char *left, gm_node_id node)
 {
-    gm_print_wrapped(formula_of(report, node, false), printf("  %s = ", left), 6);
+    const char *formula = formula_of(report, node, false); /* it may leave: no half line is printed */
+    gm_print_wrapped(formula, printf("  %s = ", left), 6);
 }
 
 static const char *name_of(const struct report *report, const char *name, bool latex)
@@ -287,10 +288,10 @@ static void print_parameters(const struct report *report)
                                                              gm_number_format(row->low, low, sizeof low),
                                                              gm_number_format(row->high, high, sizeof high));
         gm_number_format(row->value, value, sizeof value);
-        gm_print_wrapped(gm_arena_print(report->arena, "%.200s%s%.60s%s%s", row->meaning,
-                                        row->unit[0] ? ", in " : "", row->unit, range,
-                                        row->fixed ? " (a whole number that is fixed)" : ""),
-                         printf("  %-14s %-12s ", row->name, value), 30);
+        const char *told =
+            gm_arena_print(report->arena, "%.200s%s%.60s%s%s", row->meaning, row->unit[0] ? ", in " : "",
+                           row->unit, range, row->fixed ? " (a whole number that is fixed)" : "");
+        gm_print_wrapped(told, printf("  %-14s %-12s ", row->name, value), 30);
     }
     if (gm_system_is_form(system)) { /* starts are formulas on a mesh */
         return;
@@ -503,6 +504,10 @@ static void put_facts(const struct report *report, struct gm_row *row)
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
         char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
+        if (gm_memory_was_short()) { /* it may name a part of the places alone */
+            free(reason);
+            gm_arena_need(report->arena, false);
+        }
         if (reason) {
             put_fact(row, gm_fact_word(fact), "", finding->holds, reason);
         }
@@ -561,6 +566,8 @@ static void put_parts(const struct report *report, struct gm_row *row)
         const char *told =
             gm_arena_print(report->arena, "%s;%s", flow ? flow : "no flow of its own, a scheme moves it",
                            part_equations(report, *name));
+        /* without memory a flow is unknown, or a formula is not that of the part */
+        gm_arena_need(report->arena, !gm_memory_was_short());
         if (row) {
             gm_row_text(row, *name, told);
         } else {
