@@ -358,7 +358,7 @@ static void remember(struct gm_mesh_solver *solver, double *memory)
 static enum gm_status solve(struct gm_mesh_solver *solver, double *memory, const double *state, double t,
                             double h, struct gm_progress *progress)
 {
-    const size_t known = (size_t)memory[MEMORY_PAST];
+    const size_t known = (size_t)fmin(PAST, fmax(0, memory[MEMORY_PAST])); /* a file may hold any number */
     restore(solver, memory);
     gm_step_place(solver, state, t, h);
     guess(solver, memory, known);
