@@ -167,15 +167,14 @@ static double invariant_at(const struct gm_lane *lane, const struct gm_observabl
 {
     struct gm_view view = gm_lane_view(lane);
     view.state = y;
-    view.observable = row;
-    return row->evaluate(&view);
+    return gm_observe(row, &view);
 }
 
 /* Writes the gradient of an invariant at the start, of length 1, or 0 where it vanishes: where the invariant differs from
    its value at the start by less than a millionth of what it differs farther away. */
 static void find_gradient(const struct work *work, const struct gm_observable *row, double *gradient)
 {
-    const double *start = work->orbit.start;
+    const double *start = work->orbit.start, there = invariant_at(work->lane, row, start);
     const size_t n = work->orbit.problem->n;
     double *y = gm_arena_take(work->options->arena, n, sizeof *y), size = 0, square = 0, away = 0;
     memcpy(y, start, n * sizeof *y);
@@ -190,7 +189,7 @@ static void find_gradient(const struct work *work, const struct gm_observable *r
         y[c] = start[c] - h;
         gradient[c] = (above - invariant_at(work->lane, row, y)) / 2e-4;
         y[c] = start[c] + size / 4;
-        away = fmax(away, fabs(invariant_at(work->lane, row, y) - invariant_at(work->lane, row, start)));
+        away = fmax(away, fabs(invariant_at(work->lane, row, y) - there));
         y[c] = start[c];
         square += gradient[c] * gradient[c];
     }
