@@ -556,10 +556,9 @@ static void doubt_steps(struct gm_certificate *certificate, const struct gm_subj
 {
     const unsigned differentiated = GM_SYMPLECTIC | GM_CONFORMAL | GM_POISSON_MAP | GM_KEEPS_VOLUME,
                    of_step = differentiated | GM_SYMMETRIC | GM_REVERSIBLE;
-    const bool resting = rests(subject), proved = !subject->scheme->word ||
-                                                  subject->scheme->family->adaptive ||
-                                                  gm_scheme_theory(subject->scheme).known;
-    const double visible = proved ? INFINITY : gm_step_error(subject);
+    const bool resting = rests(subject), exempt = !subject->scheme->word || subject->scheme->family->adaptive;
+    const double seen = 1e-8, error = exempt ? INFINITY : gm_step_error(subject); /* by any tolerance */
+    const double visible = error < seen && gm_scheme_theory(subject->scheme).known ? INFINITY : error;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *verdict = &certificate->claims[bit];
         const bool rest = resting && !(differentiated >> bit & 1),
